@@ -9,6 +9,7 @@ import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
+import { output } from "./output.mjs";
 import { steer } from "./steer.mjs";
 import { firstSession, sameAsCommand } from "./ticks.mjs";
 import { Visit } from "./visit.mjs";
@@ -322,6 +323,7 @@ try {
   await fingers(visit);
   await markup(visit);
   await limiter(visit);
+  await output(visit, { assert, asperity: process.env.ASPERITY, work, accessible });
   await visit.compile("ruff sandpapr with very high grit, and quantum");
   await accessible(visit, ["light", "dark"], "with a texture");
   assert(visit.foreign.length === 0, `${visit.requests} requests, none to another address`);

@@ -1,44 +1,40 @@
-// A hand that moves by itself, for those who only listen: circles, to and fro, or taps.
+// A hand that moves by itself, for those who only listen. The renderer moves it (`path.js`); this starts, changes and draws it.
 
 import { now_s } from "./hand.js";
+import { PATHS, phaseAfter, placeOf, touches } from "./path.js";
 
 const OWNER = "auto";
-const STEP_S = 0.008;
-const TAPS_HZ = 2;
-/** Share of a tap's period in which it touches. */
-const TAP_SHARE = 0.4;
+/** The page draws it so often, s. */
+const FRAME_S = 0.016;
 /** Radius of the path as a share of the stage, and its limits, mm. */
 const REACH = 0.3;
 const REACH_MM = [4, 60];
 
-export const PATHS = ["circle", "line", "tap"];
-
-/** Where a path is at a phase, in radii from its centre; a full turn has the phase 2π. */
-const PLACES = {
-  circle: (phase) => [Math.cos(phase), Math.sin(phase)],
-  line: (phase) => [Math.sin(phase), 0],
-  tap: () => [0, 0],
-};
-
 export class Auto {
-  path = PATHS[0];
+  name = PATHS[0];
   speed_mm_s = 100;
   /** Called when it stops, also because somebody else took the hand. */
   onend = () => {};
   #hand;
   #force;
   #surface;
+  #sound;
   #timer = null;
-  #centre_mm;
-  #radius_mm;
-  #phase = 0;
-  /** Time up to which the hand has moved, s. */
+  #path = null;
+  /** Time up to which the page moved the hand, s. */
   #t_s;
 
-  constructor({ surface, hand, force }) {
+  constructor({ surface, hand, force, sound }) {
     this.#surface = surface;
     this.#hand = hand;
     this.#force = force;
+    this.#sound = sound;
+    sound.onpath = (phase) => {
+      if (!this.on) return;
+      if (phase === null) return this.stop();
+      this.#path.phase = phase;
+      this.#t_s = now_s();
+    };
   }
 
   get on() {
@@ -47,14 +43,14 @@ export class Auto {
 
   start() {
     const { view } = this.#surface;
-    this.#centre_mm = view.centre_mm;
     const wanted_mm = (REACH * Math.min(view.width_px, view.height_px)) / view.px_mm;
-    this.#radius_mm = Math.min(Math.max(wanted_mm, REACH_MM[0]), REACH_MM[1]);
-    this.#phase = 0;
+    this.#path = { name: this.name, speed_mm_s: this.speed_mm_s, force_n: this.#force.set_n(), centre_mm: view.centre_mm,
+      radius_mm: Math.min(Math.max(wanted_mm, REACH_MM[0]), REACH_MM[1]), phase: 0 };
     this.#t_s = now_s();
-    this.#press();
+    this.#hand.show(OWNER, this.#sample());
+    this.#sound.follow(this.#path);
     clearInterval(this.#timer);
-    this.#timer = setInterval(() => this.#step(), 1000 * STEP_S);
+    this.#timer = setInterval(() => this.#step(), 1000 * FRAME_S);
     this.outline();
   }
 
@@ -62,7 +58,8 @@ export class Auto {
     if (!this.on) return;
     clearInterval(this.#timer);
     this.#timer = null;
-    this.#hand.lift(OWNER, now_s());
+    this.#sound.follow(null);
+    this.#hand.show(OWNER, null);
     this.outline();
     this.onend();
   }
@@ -70,48 +67,29 @@ export class Auto {
   /** Shows the path, or that there is none. */
   outline() {
     if (!this.on) return this.#surface.outline(null);
-    const r = this.#radius_mm;
-    const half_mm = { circle: [r, r], line: [r, 0], tap: [0, 0] }[this.path];
-    this.#surface.outline({ centre_mm: this.#centre_mm, half_mm });
+    const { name, radius_mm: r, centre_mm } = this.#path;
+    const half_mm = { circle: [r, r], line: [r, 0], tap: [0, 0] }[name];
+    this.#surface.outline({ centre_mm, half_mm });
   }
 
   #step() {
-    const to_s = now_s();
     // Somebody else took the hand.
     if (this.#hand.owner !== null && this.#hand.owner !== OWNER) return this.stop();
-    if (this.path === "tap") this.#tap(to_s);
-    else this.#stroke(to_s);
-  }
-
-  #tap(to_s) {
-    this.#phase += (to_s - this.#t_s) * TAPS_HZ;
-    this.#t_s = to_s;
-    const touches = this.#phase % 1 < TAP_SHARE;
-    if (touches && this.#hand.owner === null) this.#press();
-    else if (!touches && this.#hand.owner === OWNER) this.#hand.lift(OWNER, to_s);
-  }
-
-  // A page that was busy catches up in even steps, so that the motion stays even.
-  #stroke(to_s) {
-    if (this.#hand.owner === null) this.#press();
-    const samples = [];
-    const count = Math.min(Math.ceil((to_s - this.#t_s) / STEP_S), 25);
-    const step_s = (to_s - this.#t_s) / Math.max(count, 1);
-    for (let n = 0; n < count; n++) {
-      this.#t_s += step_s;
-      this.#phase += (this.speed_mm_s * step_s) / this.#radius_mm;
-      samples.push(this.#sample());
+    const path = this.#path;
+    const [speed_mm_s, force_n] = [this.speed_mm_s, this.#force.set_n()];
+    if (path.speed_mm_s !== speed_mm_s || path.force_n !== force_n) {
+      Object.assign(path, { speed_mm_s, force_n });
+      this.#sound.follow(path);
     }
-    this.#hand.move(OWNER, samples);
-    this.#surface.light(this.#surface.view.toPx([this.#hand.last.x_mm, this.#hand.last.y_mm]));
-  }
-
-  #press() {
-    this.#hand.press(OWNER, this.#sample());
+    const to_s = now_s();
+    if (this.#sound.state !== "on") path.phase = phaseAfter(path, to_s - this.#t_s);
+    this.#t_s = to_s;
+    this.#hand.show(OWNER, touches(path) ? this.#sample() : null);
+    if (this.#hand.last) this.#surface.light(this.#surface.view.toPx([this.#hand.last.x_mm, this.#hand.last.y_mm]));
   }
 
   #sample() {
-    const [x, y] = PLACES[this.path](this.#phase).map((place, axis) => this.#centre_mm[axis] + this.#radius_mm * place);
-    return { t_s: this.#t_s, x_mm: x, y_mm: y, force_n: this.#force.set_n() };
+    const [x_mm, y_mm] = placeOf(this.#path);
+    return { t_s: this.#t_s, x_mm, y_mm, force_n: this.#path.force_n };
   }
 }

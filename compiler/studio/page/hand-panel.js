@@ -1,11 +1,12 @@
 // The hand and its panel: force, the hand that moves by itself, and the readout.
 
-import { Auto, PATHS } from "./auto.js";
+import { Auto } from "./auto.js";
 import { element, find, recall, remember } from "./dom.js";
 import { Force } from "./force.js";
 import { Hand, now_s } from "./hand.js";
 import { followKeys } from "./keys.js";
 import { notify } from "./notices.js";
+import { PATHS } from "./path.js";
 import { followPointer } from "./pointer.js";
 import { meansOf, Readout } from "./readout.js";
 import { texts } from "./texts.js";
@@ -38,14 +39,14 @@ function slider(name, otherwise, text, use) {
 
 function choosePath(auto) {
   const recalled = recall("path", PATHS[0]);
-  auto.path = PATHS.includes(recalled) ? recalled : PATHS[0];
+  auto.name = PATHS.includes(recalled) ? recalled : PATHS[0];
   const choose = ({ target: { value } }) => {
-    auto.path = value;
+    auto.name = value;
     remember("path", value);
     if (auto.on) auto.start();
   };
   find("auto-path").replaceChildren(...PATHS.map((path) => element("label", {},
-    element("input", { type: "radio", name: "path", value: path, checked: path === auto.path, onchange: choose }),
+    element("input", { type: "radio", name: "path", value: path, checked: path === auto.name, onchange: choose }),
     element("span", {}, texts.hand.paths[path]))));
 }
 
@@ -53,7 +54,7 @@ export function startHandPanel({ surface, sound, state }) {
   const hand = new Hand((events) => sound.hand(events));
   const force = new Force(() => notify("pen", { text: texts.hand.constant, help: texts.hand.constant_help }));
   const readout = new Readout();
-  const auto = new Auto({ surface, hand, force });
+  const auto = new Auto({ surface, hand, force, sound });
 
   const turn = slider("force", force.slider_n, texts.hand.force_text, (newtons) => (force.slider_n = newtons));
   slider("auto-speed", auto.speed_mm_s, texts.hand.speed_text, (mm_s) => (auto.speed_mm_s = mm_s));

@@ -1,5 +1,5 @@
-// The hand, whoever moves it: pointer, keys, or the hand that moves by itself. Their samples become the
-// events of the worklet: time, position, depth by force and stiffness, and the number of the stroke.
+// The hand, whoever moves it. Samples of pointer and keys become the events of the worklet: time, position, depth by force
+// and stiffness, and the number of the stroke. The hand that moves by itself is shown only: the worklet moves it.
 
 /** How high the hand is lifted, mm. A tap falls from there within 25 ms, at 0.1 m/s and up. */
 export const LIFT_MM = 3;
@@ -49,10 +49,24 @@ export class Hand {
       events.set([t_s, x_mm, y_mm, (-1000 * force_n) / this.stiffness_n_m, this.#stroke], 5 * n);
     });
     this.#post(events);
+    this.#keep(samples);
+  }
+
+  #keep(samples) {
     this.#recent.push(...samples);
     const from_s = this.last.t_s - SPEED_S;
     this.#recent = this.#recent.filter(({ t_s }, n) => t_s >= from_s || n === this.#recent.length - 1);
     this.onmove(this.last);
+  }
+
+  /** Shows where a hand is that the renderer itself moves: takes it where nobody has it; `null` lifts it. */
+  show(owner, sample) {
+    if (this.#owner !== null && this.#owner !== owner) return;
+    const touched = this.#owner !== null;
+    this.#owner = sample && owner;
+    if (!sample || !touched) this.#recent = [];
+    if (sample) this.#keep([sample]);
+    else if (touched) this.onmove(null);
   }
 
   lift(owner, t_s) {

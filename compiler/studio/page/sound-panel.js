@@ -3,6 +3,7 @@
 import { startDevices } from "./devices.js";
 import { find } from "./dom.js";
 import { notify, withdraw } from "./notices.js";
+import { startOutput } from "./output/panel.js";
 import { Meter } from "./readout.js";
 import { texts } from "./texts.js";
 
@@ -21,7 +22,7 @@ function showState(sound, meter) {
 
 export function startSoundPanel({ sound, hand }) {
   const meter = new Meter(() => sound.measure());
-  sound.onstate = () => showState(sound, meter);
+  sound.onstate.push(() => showState(sound, meter));
   sound.onlimit = () => meter.limits();
   // The renderer's wall may be softer than the asset's.
   sound.onloaded = ({ stiffness_n_m }) => {
@@ -50,8 +51,12 @@ export function startSoundPanel({ sound, hand }) {
     find("level-text").textContent = text;
     level.setAttribute("aria-valuetext", text);
   };
-  level.value = sound.level_db;
+  const setLevel = (level_db) => {
+    level.value = level_db;
+    update();
+  };
   level.addEventListener("input", update);
-  update();
+  setLevel(sound.level_db);
+  startOutput({ sound, setLevel });
   return startDevices(sound);
 }

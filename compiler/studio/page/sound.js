@@ -1,21 +1,15 @@
-// From the hand to the loudspeaker: the renderer's worklet, trim, drive, limiter, volume, meter.
-//
-// A level above 0 dB drives the limiter, one below turns down what leaves it. So no output exceeds the
-// level, whatever the texture does. Connection order is that of `chain`; what prepares the signal for
-// an ear or an actuator belongs between the renderer and the drive.
+// From the hand to the loudspeaker: the sound's state, its texture, its level, its device. `output/chain.js` has the nodes.
 
-const fromDb = (db) => 10 ** (db / 20);
+import { now_s } from "./hand.js";
+import { buildChain, FADE_S } from "./output/chain.js";
+import { MODES } from "./output/modes.js";
 
 const RATE_HZ = 48000;
-/** Acceleration of full scale at a level of 0 dB, m/s²: nearly twice the usual peaks of taps, 22 m/s². */
-const FULL_SCALE_M_S2 = 40;
-/** Level to begin with, hence the loudest peak at first, dB of full scale. */
-export const START_LEVEL_DB = -20;
-/** What the limiter lets through, −1 dB of full scale. */
-const CEILING = fromDb(-1);
-const FADE_S = 0.03;
 /** How long a browser may take to start, ms, until that is said. */
 const PATIENCE_MS = 3000;
+
+/** When a fade has ended. */
+const silence = () => new Promise((done) => setTimeout(done, 4000 * FADE_S));
 
 /** Why the sound does not start or has stopped. */
 export class SoundFailure extends Error {
@@ -29,21 +23,21 @@ export class SoundFailure extends Error {
 export class Sound {
   /** "off", "starting", "on" or "suspended". */
   state = "off";
-  level_db = START_LEVEL_DB;
-  /** What this texture is turned down by so that others are as loud, dB. */
-  #trim_db = 0;
+  /** What the sound is for, of `MODES`, and the level, dB of full scale. */
+  mode = "plain";
+  level_db = MODES.plain.start_db;
   latency_s = 0;
   /** Stopped by a person, so that only a person starts it again. */
   stopped = false;
   /** Sink that was chosen; empty is the system's default. */
   sink = "";
+  /** The nodes, while there are some; others look at them. */
+  chain = null;
   #context = null;
-  #renderer = null;
-  #trim;
-  #drive;
-  #volume;
-  #analyser;
-  #samples;
+  #gains_db = null;
+  /** What this texture is turned down by so that others are as loud, dB. */
+  #trim_db = 0;
+  #path = null;
   #asset = null;
   #loaded = false;
   #file;
@@ -53,13 +47,15 @@ export class Sound {
     this.#file = file;
   }
 
-  // What others hear of. `onloaded` has the renderer's status of a texture that plays now.
-  onstate = () => {};
+  // What others hear of. `onloaded` has the renderer's status of a texture that plays now; `onpath` the phase of the hand
+  // that moves by itself, or null when another took its place.
+  onstate = [];
   onfailure = () => {};
   onloaded = () => {};
   onrefused = () => {};
   onticks = [];
   onlimit = () => {};
+  onpath = () => {};
 
   /** From the hand to the sound as far as the browser knows, s. */
   get total_latency_s() {
@@ -91,7 +87,7 @@ export class Sound {
     if (this.state === "off") return;
     this.#enter("off");
     this.#turn(0);
-    await new Promise((done) => setTimeout(done, 4000 * FADE_S));
+    await silence();
     if (this.state === "off") await this.#context?.suspend();
   }
 
@@ -100,20 +96,46 @@ export class Sound {
     if (this.state === "on") this.#turn(1);
   }
 
+  /** Changes the mode in silence, and to the level that the other begins with. */
+  async use(mode) {
+    this.mode = mode;
+    this.level_db = MODES[mode].start_db;
+    const chain = this.chain;
+    this.#turn(0);
+    await silence();
+    // Another one may have been chosen meanwhile.
+    if (!chain || this.mode !== mode || chain !== this.chain) return;
+    chain.mode = mode;
+    if (this.state === "on") this.#turn(1);
+    this.#tell();
+  }
+
   set trim(trim_db) {
     this.#trim_db = trim_db;
-    this.#trim?.gain.setTargetAtTime(fromDb(trim_db), this.#context.currentTime, FADE_S);
+    this.chain?.trim(trim_db);
+  }
+
+  /** Gains of the equaliser, dB. */
+  equalise(gains_db) {
+    this.#gains_db = gains_db;
+    if (this.chain) this.chain.equaliser.gains_db = gains_db;
   }
 
   /** Plays another texture: from its first tick on, or by a cross-fade where one plays. */
   play(asset) {
     this.#asset = asset;
-    if (this.#renderer) this.#send();
+    if (this.chain) this.#send();
   }
 
   /** Events of the hand; nobody hears them while the sound is off. */
   hand(events) {
-    if (this.state === "on") this.#renderer.port.postMessage({ type: "hand", events });
+    if (this.state === "on") this.#post({ type: "hand", events });
+  }
+
+  /** The path of the hand that moves by itself (`path.js`), as soon as the sound is on; null lifts it. */
+  follow(path) {
+    this.#path = path;
+    if (this.state === "on") this.#post({ type: "path", path, t_s: now_s() });
   }
 
   /** Plays on another device; false where that fails. */
@@ -126,19 +148,14 @@ export class Sound {
       this.sink = "";
       await this.#context?.setSinkId?.("").catch(() => {});
       return false;
+    } finally {
+      this.#reroute();
     }
   }
 
   /** Peak and RMS of the last 40 ms of the output, in full scales. */
   measure() {
-    if (this.state !== "on") return { peak: 0, rms: 0 };
-    this.#analyser.getFloatTimeDomainData(this.#samples);
-    let [peak, sum] = [0, 0];
-    for (const x of this.#samples) {
-      peak = Math.max(peak, Math.abs(x));
-      sum += x * x;
-    }
-    return { peak, rms: Math.sqrt(sum / this.#samples.length) };
+    return this.state === "on" ? this.chain.measure() : { peak: 0, rms: 0 };
   }
 
   async #build() {
@@ -149,42 +166,44 @@ export class Sound {
     // Within the gesture, before anything is awaited.
     context.resume().catch(() => {});
     context.onerror = () => this.#fail(new SoundFailure("no_device"));
-    const modules = ["worklet.js", "limiter.js"].map((name) => context.audioWorklet.addModule(new URL(name, document.baseURI)));
-    const [module] = await Promise.all([this.#file("asperity.wasm"), ...modules]);
+    const chain = await buildChain(context, this.#file("asperity.wasm"), this.mode);
     if (this.sink) await context.setSinkId(this.sink).catch(() => (this.sink = ""));
 
-    const renderer = new AudioWorkletNode(context, "asperity",
-      { numberOfInputs: 0, outputChannelCount: [1], processorOptions: { module } });
-    const [trim, drive, volume] = [fromDb(this.#trim_db), 1 / FULL_SCALE_M_S2, 0].map((gain) => new GainNode(context, { gain }));
-    const limiter = new AudioWorkletNode(context, "limiter",
-      { outputChannelCount: [1], processorOptions: { ceiling: CEILING } });
-    const analyser = new AnalyserNode(context, { fftSize: 2048 });
-    const chain = [renderer, trim, drive, limiter, volume, analyser, context.destination];
-    chain.slice(1).forEach((node, n) => chain[n].connect(node));
-
-    this.#renderer = renderer;
-    this.#trim = trim;
-    this.#drive = drive;
-    this.#volume = volume;
-    this.#analyser = analyser;
-    this.#samples = new Float32Array(analyser.fftSize);
+    // Another mode may have been chosen meanwhile, and another device have other channels.
+    this.chain = chain;
     this.#loaded = false;
+    chain.mode = this.mode;
+    chain.trim(this.#trim_db);
+    if (this.#gains_db) chain.equaliser.gains_db = this.#gains_db;
+    const { renderer, limiter } = chain;
     renderer.port.onmessage = ({ data }) => this.#heard(data);
     limiter.port.onmessage = ({ data }) => this.onlimit(data.reduction_db);
-    for (const node of [renderer, limiter]) node.onprocessorerror = () => this.#fail(new SoundFailure("failed", "processor"));
+    for (const node of chain.worklets) node.onprocessorerror = () => this.#fail(new SoundFailure("failed", "processor"));
     context.onstatechange = () => this.#changed(context);
-    renderer.port.postMessage({ type: "record", on: true });
+    this.#post({ type: "record", on: true });
     if (this.#asset) this.#send();
   }
 
+  /** Another device may have other channels. */
+  #reroute() {
+    if (!this.chain) return;
+    this.chain.route();
+    if (this.state === "on") this.#turn(1);
+    this.#tell();
+  }
+
   #send() {
-    const type = this.#loaded ? "swap" : "load";
+    this.#post({ type: this.#loaded ? "swap" : "load", asset: this.#asset });
     this.#loaded = true;
-    this.#renderer.port.postMessage({ type, asset: this.#asset });
+  }
+
+  #post(message) {
+    this.chain.renderer.port.postMessage(message);
   }
 
   #heard(message) {
     if (message.type === "ticks") return this.onticks.forEach((hear) => hear(message));
+    if (message.type === "path") return this.onpath(message.phase);
     const { about, name, latency_s } = message;
     if (about === "module" && name === "ok") this.latency_s = latency_s;
     else if (about === "load" || about === "swap") {
@@ -192,7 +211,7 @@ export class Sound {
       // A later texture took its place.
       else if (name !== "replaced") this.onrefused(message);
     } else if (name !== "ok") this.#fail(new SoundFailure("failed", `${about}: ${name}`));
-    if (about === "module") this.onstate(this.state);
+    if (about === "module") this.#tell();
   }
 
   #changed(context) {
@@ -203,17 +222,17 @@ export class Sound {
   }
 
   #running() {
-    if (this.state === "off" || !this.#renderer) return;
+    if (this.state === "off" || !this.chain) return;
     this.#turn(1);
     this.#enter("on");
+    if (this.#path) this.follow(this.#path);
   }
 
   /** Gives up the context; the next start builds another. */
   #fail(failure) {
     const context = this.#context;
     this.#context = null;
-    this.#renderer = null;
-    this.#trim = null;
+    this.chain = null;
     this.#enter("off");
     if (context) {
       context.onstatechange = null;
@@ -222,18 +241,18 @@ export class Sound {
     this.onfailure(failure);
   }
 
-  /** Fades to the level, or to silence where `on` is 0. */
+  /** Fades to the level, or to silence where `on` is 0 and until the mode is the one chosen. */
   #turn(on) {
-    if (!this.#renderer) return;
-    const now_s = this.#context.currentTime;
-    const [drive, volume] = [fromDb(Math.max(this.level_db, 0)) / FULL_SCALE_M_S2, on * fromDb(Math.min(this.level_db, 0))];
-    this.#drive.gain.setTargetAtTime(drive, now_s, FADE_S);
-    this.#volume.gain.setTargetAtTime(volume, now_s, FADE_S);
+    this.chain?.turn(this.level_db, on && this.chain.mode === this.mode);
   }
 
   #enter(state) {
     if (this.state === state) return;
     this.state = state;
-    this.onstate(state);
+    this.#tell();
+  }
+
+  #tell() {
+    for (const hear of this.onstate) hear(this.state);
   }
 }

@@ -17,6 +17,8 @@
 //                                        of the page; x, y, z, mm; stroke. z < 0 presses with
 //                                        stiffness_n_m · (−z / 1000) N. Another number of the stroke
 //                                        means that the pointer was put down elsewhere.
+//   { type: "path", path, t_s }          a hand that moves by itself (`path.js`) from the page's time t_s on; null lifts
+//                                        it, and events of the hand take its place
 //   { type: "record", on }               whether ticks are posted; those from a load to a swap have the
 //                                        bits of the command
 //   { type: "end" }                      the node is not needed any more
@@ -24,53 +26,22 @@
 //   { type: "status", about, id, status, name, … }  about: "module", "context", "load", "swap", "hand";
 //       status 0 of "module" has latency_s; of "load" and "swap", session, tick, stiffness_n_m,
 //       effective_mass_kg, model_rate_hz of the asset; "rate" has model_rate_hz of the refused asset
+//   { type: "path", phase }  where the hand that moves by itself is, sixty times a second; null when it lost its place
 //   { type: "ticks", session, first, positions_mm, columns, flags }  three, nine numbers and one a tick
 //
 // An AudioWorklet has no TextDecoder, atob or performance, and `process` may come before the module.
+
+import { Walk } from "./path.js";
+import { Recorder } from "./recorder.js";
 
 /** What the module returns, by number (`worklet/src/status.rs`); the last ones are this file's. */
 const STATUS = ["ok", "rate", "format", "capacity", "conditioning", "busy", "empty", "length", "event", "runtime",
   "module", "context", "replaced"];
 const [OK, RATE, BUSY] = ["ok", "rate", "busy"].map((name) => STATUS.indexOf(name));
-/** Ticks of a message, a tenth of a second. */
-const CHUNK_TICKS = 1600;
 const FRAME_HZ = 48000;
 const EVENT_NUMBERS = 5;
-
-/** Ticks under way to the page. */
-class Recorder {
-  constructor(port) {
-    this.port = port;
-    this.on = false;
-    this.count = 0;
-  }
-
-  add(session, first, ticks, positions_mm, columns, flags) {
-    for (let n = 0; n < ticks; n++) {
-      if (this.count === 0) {
-        this.message = { type: "ticks", session, first: first + n,
-          positions_mm: new Float32Array(3 * CHUNK_TICKS), columns: new Float32Array(9 * CHUNK_TICKS),
-          flags: new Uint32Array(CHUNK_TICKS) };
-      }
-      const { message, count } = this;
-      for (let k = 0; k < 3; k++) message.positions_mm[3 * count + k] = positions_mm[3 * n + k];
-      for (let k = 0; k < 9; k++) message.columns[9 * count + k] = columns[9 * n + k];
-      message.flags[count] = flags[n];
-      this.count++;
-      if (this.count === CHUNK_TICKS) this.flush();
-    }
-  }
-
-  flush() {
-    const { message, count } = this;
-    if (count === 0) return;
-    message.positions_mm = message.positions_mm.slice(0, 3 * count);
-    message.columns = message.columns.slice(0, 9 * count);
-    message.flags = message.flags.slice(0, count);
-    this.port.postMessage(message, [message.positions_mm, message.columns, message.flags].map((array) => array.buffer));
-    this.count = 0;
-  }
-}
+/** Frames between two messages of where the hand is. */
+const PATH_FRAMES = 800;
 
 class AsperityProcessor extends AudioWorkletProcessor {
   constructor(options) {
@@ -80,6 +51,8 @@ class AsperityProcessor extends AudioWorkletProcessor {
     this.session = 0;
     this.tick = 0;
     this.ended = false;
+    this.walk = new Walk();
+    this.unsaid = 0;
     /** Messages that came before the module. */
     this.early = asset === undefined ? [] : [{ type: "load", asset, seed }];
     /** A swap that waits for a spare slot of the runtime, and those that the runtime has. */
@@ -126,7 +99,12 @@ class AsperityProcessor extends AudioWorkletProcessor {
       case "swap":
         return this.swap(message);
       case "hand":
-        return this.hand(message);
+        if (this.walk.on) this.port.postMessage({ type: "path", phase: null });
+        this.walk.leave();
+        return this.hand(message.events);
+      case "path":
+        if (!message.path) return this.hand(Float64Array.from(this.walk.lift(currentTime)));
+        return this.walk.follow(message.path, message.t_s, currentTime);
       case "record":
         this.recorder.on = message.on;
         return this.recorder.flush();
@@ -171,7 +149,7 @@ class AsperityProcessor extends AudioWorkletProcessor {
     return bytes.length;
   }
 
-  hand({ events }) {
+  hand(events) {
     // More than the module takes at once come after a page that was busy for long.
     for (let from = 0; from < events.length; from += this.events.length) {
       const some = events.subarray(from, from + this.events.length);
@@ -179,6 +157,17 @@ class AsperityProcessor extends AudioWorkletProcessor {
       const status = this.module.post(Math.floor(some.length / EVENT_NUMBERS), currentTime);
       if (status !== OK) this.report("hand", undefined, status);
     }
+  }
+
+  /** Moves the hand on its path by some frames. */
+  step(frames) {
+    const stiffness_n_m = this.module.stiffness_n_m();
+    if (!this.walk.on || !(stiffness_n_m > 0)) return;
+    this.hand(Float64Array.from(this.walk.advance(currentTime, frames / FRAME_HZ, stiffness_n_m)));
+    this.unsaid += frames;
+    if (this.unsaid < PATH_FRAMES) return;
+    this.unsaid = 0;
+    this.port.postMessage({ type: "path", phase: this.walk.phase });
   }
 
   answer(about, id, status) {
@@ -201,6 +190,7 @@ class AsperityProcessor extends AudioWorkletProcessor {
     // A buffer of the browser begins silent.
     if (!this.module) return true;
     if (this.waiting) this.retry();
+    this.step(first.length);
     const swaps = this.module.swaps();
     for (let from = 0; from < first.length; from += this.frames.length) {
       const count = Math.min(this.frames.length, first.length - from);

@@ -23,14 +23,18 @@ macro_rules! files {
 /// Every file of `page/`.
 pub(crate) const FILES: &[File] = files! {
     "text/html; charset=utf-8": "index.html";
-    "text/css; charset=utf-8": "studio.css" "plots/plots.css" "device/device.css" "steer/steer.css";
+    "text/css; charset=utf-8": "studio.css" "device/device.css" "output/output.css" "plots/plots.css"
+        "steer/steer.css";
     "text/javascript; charset=utf-8":
         "auto.js" "command.js" "devices.js" "dom.js" "force.js" "hand-panel.js" "hand.js" "history.js" "keys.js"
-        "limiter.js" "lit.js" "loader.js" "notices.js" "plain.js" "pointer.js" "prompt.js" "reading.js"
-        "readout.js" "server.js" "sound-panel.js" "sound.js" "state.js" "studio.js" "suggest.js" "surface.js"
+        "limiter.js" "lit.js" "loader.js" "notices.js" "path.js" "plain.js" "pointer.js" "prompt.js" "reading.js"
+        "readout.js" "recorder.js" "server.js" "sound-panel.js" "sound.js" "state.js" "studio.js" "suggest.js" "surface.js"
         "texts.js" "texture-panels.js" "theme.js" "view.js" "worklet.js"
         "device/feed.js" "device/jitter.js" "device/panel.js"
-        "plots/axes.js" "plots/colormap.js" "plots/contour.js" "plots/controls.js" "plots/csv.js" "plots/fft.js"
+        "output/chain.js" "output/equaliser-panel.js" "output/equaliser.js" "output/modes.js" "output/motors-panel.js"
+        "output/motors.js" "output/panel.js" "output/response.js" "output/shift.js" "output/tones-button.js"
+        "output/tones.js"
+        "plots/axes.js" "plots/colormap.js" "plots/contour.js" "plots/controls.js" "plots/csv-worker.js" "plots/csv.js" "plots/fft.js"
         "plots/field.js" "plots/figure.js" "plots/force.js" "plots/friction.js" "plots/grid.js" "plots/level.js"
         "plots/levels.js" "plots/lsf.js" "plots/palette.js" "plots/plane-pointer.js" "plots/plane.js"
         "plots/playhead.js" "plots/plots.js" "plots/ring.js" "plots/scale.js" "plots/scope.js" "plots/shortest.js"

@@ -9,14 +9,14 @@ import { execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
 import { readFileSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
+import { pointer, PAGE_S } from "../check/pointer.mjs";
+import { apart_db } from "../check/third-octaves.mjs";
 
 const TICK_HZ = 16000;
 const QUANTUM = 128;
 const BLOCKS = 900;
 /** Above 2³², so that both halves of it count. */
 const SEED = 4294967303n;
-/** The page's clock where the audio clock is 0, s. */
-const PAGE_S = 1234.5;
 /** Frames by which the upsampler is late. */
 const DELAY_FRAMES = 33;
 
@@ -77,23 +77,6 @@ class Node {
       this.audio.push(channels[0]);
     }
   }
-}
-
-/** A pointer: hover, tap, strokes of growing speed, lift, another stroke elsewhere, a loss, a jump. */
-function pointer() {
-  const events = [];
-  for (let n = 0, t = 0; t < 2.3; n++) {
-    // 120 Hz, later 1000 Hz; the times jitter by some tenths of a millisecond.
-    t += (t < 1.2 ? 1 / 120 : 0.001) * (1 + 0.03 * Math.sin(7 * n));
-    if (t > 1.6 && t < 1.8) continue;
-    const second = t > 1.3;
-    const sweep = 30 * Math.sin(2 * Math.PI * (0.5 + t) * t);
-    const x = second ? 200 + 80 * (t - 1.3) + (t > 2.1 ? 50 : 0) : sweep;
-    const presses = (t > 0.2 && t < 1.1) || t > 1.35;
-    const z = presses ? -1.2 - 0.8 * Math.sin(5 * t) : 1;
-    events.push([PAGE_S + t, x, 10 * Math.cos(3 * t), z, second ? 2 : 1]);
-  }
-  return events;
 }
 
 /** A whole session: what was posted of its ticks, its audio, and a hash of all of it. */
@@ -174,44 +157,12 @@ function compare(name, played, { names, lines }) {
   return `${ticks} ticks, ${contact} in contact, ${taps} taps`;
 }
 
-/** Mean power in third octaves from 25 Hz to 450 Hz of windows of 256 ms. */
-function thirdOctaves(signal, rate_hz, from) {
-  const size = Math.round(0.256 * rate_hz);
-  const [cos, window] = [new Float64Array(size), new Float64Array(size)];
-  for (let n = 0; n < size; n++) {
-    cos[n] = Math.cos((2 * Math.PI * n) / size);
-    window[n] = 0.5 - 0.5 * cos[n];
-  }
-  const powers = new Map();
-  for (let at = from; at + size <= signal.length; at += size / 2) {
-    for (let bin = 6; (bin * rate_hz) / size < 450; bin++) {
-      let [re, im] = [0, 0];
-      for (let n = 0; n < size; n++) {
-        const sample = window[n] * signal[at + n];
-        re += sample * cos[(n * bin) % size];
-        im += sample * cos[(n * bin + 0.75 * size) % size];
-      }
-      const band = Math.round(3 * Math.log2((bin * rate_hz) / size / 1000));
-      powers.set(band, (powers.get(band) ?? 0) + re * re + im * im);
-    }
-  }
-  return new Map([...powers].map(([band, power]) => [band, 10 * Math.log10(power / size ** 2)]));
-}
-
 /** Compares the spectrum of the audio with that of vibration and tap as the command has them. */
 function compareSpectra(name, { audio, mass_kg }, { names, lines }) {
   const [vib, tap] = ["vib_m_s2", "tap_n"].map((column) => names.indexOf(column));
   const ticks = Float64Array.from(lines, (line) => Number(line[vib]) + Number(line[tap]) / mass_kg);
-  const [wanted, heard] = [thirdOctaves(ticks, TICK_HZ, 0), thirdOctaves(audio, 3 * TICK_HZ, DELAY_FRAMES)];
-  let most = 0;
-  for (const [band, level] of wanted) {
-    const difference = heard.get(band) - level;
-    if (!(Math.abs(difference) < 0.5)) {
-      fail(`${name}: ${Math.round(1000 * 2 ** (band / 3))} Hz: the audio differs by ${difference} dB`);
-    }
-    most = Math.max(most, Math.abs(difference));
-  }
-  if (wanted.size < 13) fail(`${name}: ${wanted.size} third octaves`);
+  const most = apart_db({ signal: ticks, rate_hz: TICK_HZ }, { signal: audio.subarray(DELAY_FRAMES), rate_hz: 3 * TICK_HZ });
+  if (!(most < 0.5)) fail(`${name}: a third octave of the audio differs by ${most} dB`);
   return `third octaves within ${most.toFixed(4)} dB`;
 }
 

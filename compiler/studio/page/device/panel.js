@@ -51,7 +51,7 @@ class DevicePanel {
     this.#feed.onnews = (news) => this.#news(news);
     this.#feed.onticks = (ticks) => this.#ticks(ticks);
     this.#feed.onsilence = (error) => error
-      ? notify("device", { text: texts.device.silent, help: error.help ?? texts.device.silent_help }) : withdraw("device");
+      ? notify("servo", { text: texts.device.silent, help: error.help ?? texts.device.silent_help }) : withdraw("servo");
     this.#feed.run();
   }
 
@@ -73,9 +73,9 @@ class DevicePanel {
   async #play(texture) {
     try {
       await this.#parts.server.playOnDevice(texture);
-      withdraw("device-play");
+      withdraw("servo-play");
     } catch ({ message, help }) {
-      notify("device-play", { text: message, help });
+      notify("servo-play", { text: message, help });
     }
   }
 

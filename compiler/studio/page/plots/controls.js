@@ -1,7 +1,9 @@
 // The controls of the strip: freeze, scroll, save.
 
-import { renderedCsv, trajectoryCsv } from "./csv.js";
 import { element } from "./figure.js";
+
+/** Ticks copied at once, a megabyte. */
+const PART_TICKS = 20_000;
 
 export class Controls {
   /** `freeze(on)` and `scrolled()` tell the other parts. */
@@ -19,15 +21,24 @@ export class Controls {
       scope.scroll(Number(this.slider.value) * scope.tick_hz);
       scrolled();
     });
-    const save = (label, name, text) => {
+    const save = (label, name, table) => {
       const button = element("button", "plot-button", label);
       button.type = "button";
-      button.addEventListener("click", () => download(name, text(scope.ring, scope.tick_hz)));
+      button.addEventListener("click", async () => {
+        // Not disabled, which would take the focus away.
+        if (button.getAttribute("aria-busy") === "true") return;
+        button.setAttribute("aria-busy", "true");
+        try {
+          download(name, await written(table, scope));
+        } finally {
+          button.removeAttribute("aria-busy");
+        }
+      });
       return button;
     };
     this.saves = [
-      save(texts.save, texts.file, renderedCsv),
-      save(texts.save_trajectory, texts.trajectory_file, trajectoryCsv),
+      save(texts.save, texts.file, "rendered"),
+      save(texts.save_trajectory, texts.trajectory_file, "trajectory"),
     ];
     this.element = element("div", "plot-controls", this.button, this.slider, ...this.saves);
     this.update();
@@ -45,9 +56,32 @@ export class Controls {
   }
 }
 
-function download(name, text) {
+/** A table as a Blob, written by a worker: half a million rows would hold the page up for seconds. */
+function written(table, { ring, tick_hz }) {
+  const worker = new Worker(new URL("csv-worker.js", import.meta.url), { type: "module" });
+  return new Promise((done, failed) => {
+    worker.onmessage = ({ data }) => done(data);
+    worker.onerror = ({ message }) => failed(new Error(message));
+    worker.postMessage({ ticks: ring.capacity });
+    copyInto(worker, ring).then(() => worker.postMessage({ table, tick_hz }), failed);
+  }).finally(() => worker.terminate());
+}
+
+/** Sends the ticks kept now, in parts. A page that stands still meanwhile may lose the oldest; the table then begins later. */
+async function copyInto(worker, ring) {
+  const { session, end } = ring;
+  for (let tick = ring.first; tick < end && ring.session === session;) {
+    const part = ring.part(tick, Math.min(PART_TICKS, end - tick));
+    tick += part.flags.length;
+    worker.postMessage({ part }, [part.positions_mm, part.columns, part.flags].map(({ buffer }) => buffer));
+    await new Promise((done) => setTimeout(done));
+    tick = Math.max(tick, ring.first);
+  }
+}
+
+function download(name, blob) {
   const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([text], { type: "text/csv" }));
+  link.href = URL.createObjectURL(blob);
   link.download = name;
   link.click();
   // Some browsers read it later than the click.

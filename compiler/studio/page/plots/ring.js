@@ -43,6 +43,20 @@ export class Ring {
     return arrays.reduce((sum, array) => sum + array.byteLength, 0);
   }
 
+  /** Copies ticks from a kept one on, `most` of them or up to where the arrays begin again, as a message for `add`. */
+  part(from, most) {
+    const slot = from % this.capacity;
+    const count = Math.min(most, this.end - from, this.capacity - slot);
+    const cut = (array, width) => array.slice(width * slot, width * (slot + count));
+    return {
+      session: this.session,
+      first: from,
+      positions_mm: cut(this.positions_mm, 3),
+      columns: cut(this.columns, WIDTH),
+      flags: cut(this.flags, 1),
+    };
+  }
+
   clear() {
     this.first = this.end;
   }

@@ -1,0 +1,70 @@
+// Motors that are no loudspeakers: a gamepad's rumble and a phone's vibration follow the level of what is rendered.
+
+const STEP_MS = 40;
+/** An effect lasts until the next one has come for sure, ms. */
+const LASTS_MS = 120;
+/** RMS at which a rumble motor runs fully, m/s². */
+const FULL_M_S2 = 5;
+/** RMS from which a phone vibrates, m/s². */
+const NOTICED_M_S2 = 0.3;
+
+/** Gamepads that can rumble and have shown themselves by a button. */
+export const gamepads = () => [...(navigator.getGamepads?.() ?? [])].filter((pad) => pad?.vibrationActuator?.playEffect);
+
+/** Whether this is a device with a motor; browsers of desks have the function too. */
+export const hasVibration = () => "vibrate" in navigator && matchMedia("(any-pointer: coarse)").matches;
+
+/** Calls `drive` with the RMS below and above the crossover, m/s², while it is on. */
+class Motor {
+  #timer = null;
+
+  constructor(sound) {
+    this.sound = sound;
+  }
+
+  set on(on) {
+    clearInterval(this.#timer);
+    this.#timer = on ? setInterval(() => this.#step(), STEP_MS) : null;
+    if (!on) this.rest();
+  }
+
+  #step() {
+    const { state, chain } = this.sound;
+    this.drive(...(state === "on" ? chain.felt() : [0, 0]));
+  }
+}
+
+export class Rumble extends Motor {
+  #runs = false;
+
+  drive(low_m_s2, high_m_s2) {
+    const [strongMagnitude, weakMagnitude] = [low_m_s2, high_m_s2].map((rms) => Math.min(rms / FULL_M_S2, 1));
+    const runs = strongMagnitude > 0.005 || weakMagnitude > 0.005;
+    if (!runs) return this.#runs && this.rest();
+    this.#runs = true;
+    const effect = { startDelay: 0, duration: LASTS_MS, strongMagnitude, weakMagnitude };
+    // A gamepad that is just unplugged refuses.
+    for (const { vibrationActuator } of gamepads()) vibrationActuator.playEffect("dual-rumble", effect).catch(() => {});
+  }
+
+  rest() {
+    this.#runs = false;
+    for (const { vibrationActuator } of gamepads()) vibrationActuator.reset?.().catch(() => {});
+  }
+}
+
+export class Vibration extends Motor {
+  #runs = false;
+
+  drive(low_m_s2, high_m_s2) {
+    if (Math.hypot(low_m_s2, high_m_s2) > NOTICED_M_S2) {
+      this.#runs = true;
+      navigator.vibrate(LASTS_MS);
+    } else this.rest();
+  }
+
+  rest() {
+    if (this.#runs) navigator.vibrate(0);
+    this.#runs = false;
+  }
+}
