@@ -1,6 +1,8 @@
 // The page's entry: builds the parts and lets them hear of each other.
 
 import { fillTexts, find } from "./dom.js";
+import { startFiles } from "./files/files.js";
+import { startGallery } from "./gallery/gallery.js";
 import { startHandPanel } from "./hand-panel.js";
 import { Loader } from "./loader.js";
 import { notify } from "./notices.js";
@@ -28,6 +30,8 @@ const hand = startHandPanel({ surface, sound, state });
 startSoundPanel({ sound, hand });
 const loader = new Loader({ server, state, surface, sound });
 startTexturePanels({ state, loader });
+const gallery = startGallery({ server, state, loader });
+startFiles({ server, state, loader, gallery });
 const plots = mountPlots(find("plots"), texts.plots);
 sound.onticks.push((ticks) => plots.addTicks(ticks));
 state.on(["texture"], ({ texture }) => plots.setTexture(texture && texture.inspect));

@@ -23,12 +23,15 @@ macro_rules! files {
 /// Every file of `page/`.
 pub(crate) const FILES: &[File] = files! {
     "text/html; charset=utf-8": "index.html";
-    "text/css; charset=utf-8": "studio.css" "plots/plots.css";
+    "text/css; charset=utf-8": "studio.css" "plots/plots.css" "gallery/gallery.css" "files/files.css";
     "text/javascript; charset=utf-8":
         "auto.js" "devices.js" "dom.js" "feel.js" "force.js" "hand-panel.js" "hand.js" "history.js" "keys.js"
         "limiter.js" "lit.js" "loader.js" "notices.js" "plain.js" "pointer.js" "prompt.js" "reading.js"
-        "readout.js" "server.js" "sound-panel.js" "sound.js" "state.js" "studio.js" "suggest.js" "surface.js"
+        "readout.js" "save.js" "server.js" "sound-panel.js" "sound.js" "state.js" "studio.js" "suggest.js" "surface.js"
         "texts.js" "texture-panels.js" "theme.js" "view.js" "worklet.js"
+        "files/files.js" "files/in.js" "files/kinds.js" "files/out.js" "files/session.js"
+        "gallery/attributes.js" "gallery/compare.js" "gallery/filters.js" "gallery/gallery.js" "gallery/grid.js"
+        "gallery/hand-button.js" "gallery/library.js" "gallery/scatter.js" "gallery/span.js" "gallery/thumbnails.js" "gallery/views.js"
         "plots/axes.js" "plots/colormap.js" "plots/contour.js" "plots/controls.js" "plots/csv.js" "plots/fft.js"
         "plots/field.js" "plots/figure.js" "plots/force.js" "plots/friction.js" "plots/grid.js" "plots/level.js"
         "plots/levels.js" "plots/lsf.js" "plots/palette.js" "plots/plane-pointer.js" "plots/plane.js"

@@ -1,5 +1,6 @@
 // The controls of the strip: freeze, scroll, save.
 
+import { save } from "../save.js";
 import { renderedCsv, trajectoryCsv } from "./csv.js";
 import { element } from "./figure.js";
 
@@ -19,15 +20,15 @@ export class Controls {
       scope.scroll(Number(this.slider.value) * scope.tick_hz);
       scrolled();
     });
-    const save = (label, name, text) => {
+    const saving = (label, name, text) => {
       const button = element("button", "plot-button", label);
       button.type = "button";
-      button.addEventListener("click", () => download(name, text(scope.ring, scope.tick_hz)));
+      button.addEventListener("click", () => save(name, new Blob([text(scope.ring, scope.tick_hz)], { type: "text/csv" })));
       return button;
     };
     this.saves = [
-      save(texts.save, texts.file, renderedCsv),
-      save(texts.save_trajectory, texts.trajectory_file, trajectoryCsv),
+      saving(texts.save, texts.file, renderedCsv),
+      saving(texts.save_trajectory, texts.trajectory_file, trajectoryCsv),
     ];
     this.element = element("div", "plot-controls", this.button, this.slider, ...this.saves);
     this.update();
@@ -41,15 +42,6 @@ export class Controls {
     [this.slider.min, this.slider.max] = [ring.first / tick_hz, ring.end / tick_hz];
     this.slider.value = (frozen ? now : ring.end) / tick_hz;
     this.slider.setAttribute("aria-valuetext", this.texts.moment(now / tick_hz));
-    for (const save of this.saves) save.disabled = ring.end === ring.first;
+    for (const button of this.saves) button.disabled = ring.end === ring.first;
   }
-}
-
-function download(name, text) {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([text], { type: "text/csv" }));
-  link.download = name;
-  link.click();
-  // Some browsers read it later than the click.
-  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }
