@@ -5,6 +5,13 @@ import { texts as plots } from "./plots/texts.js";
 const number = (value, digits) =>
   value.toLocaleString("en", { minimumFractionDigits: digits, maximumFractionDigits: digits }).replace("-", "−");
 
+/** Two numbers with as many digits as show that they differ. */
+function apart(old, now, digits) {
+  const most = digits + 6;
+  while (digits < most && number(old, digits) === number(now, digits)) digits++;
+  return `${number(old, digits)} → ${number(now, digits)}`;
+}
+
 export const texts = {
   plots,
   live: "Live plots",
@@ -238,10 +245,10 @@ export const texts = {
       not_felt: "Not noticeable.",
       no_spectra: "Spectra cannot be compared",
       spectra: (p95, worst) => `Spectra differ by ${number(p95, 1)} dB, at worst ${number(worst, 1)} dB`,
-      vibration_n: (old, now) => `vibration ${number(old, 3)} → ${number(now, 3)} N`,
-      tap_n: (old, now) => `tap ${number(old, 3)} → ${number(now, 3)} N`,
-      stiffness_n_m: (old, now) => `wall ${number(old, 1)} → ${number(now, 1)} N/m`,
-      mu: (old, now) => `μ ${number(old, 3)} → ${number(now, 3)}`,
+      vibration_n: (old, now) => `vibration ${apart(old, now, 3)} N`,
+      tap_n: (old, now) => `tap ${apart(old, now, 3)} N`,
+      stiffness_n_m: (old, now) => `wall ${apart(old, now, 0)} N/m`,
+      mu: (old, now) => `μ ${apart(old, now, 3)}`,
       picture: "picture changed",
       only: (sections) => `Only sections ${sections}`,
     },
