@@ -46,6 +46,14 @@ async function scrolled({ page }, assert) {
   await until(page, (count) => [...document.querySelectorAll(".cell")].some((cell) => cell.getAttribute("aria-posinset") === String(count)), COUNT);
   await until(page, () => document.querySelector(".cell:last-child img").dataset.state === "loaded");
   assert(true, "the last one is there, with its picture");
+  const top = () => page.$eval(".cells", ({ scrollTop }) => scrollTop);
+  const before = await top();
+  await page.click("#views label:nth-child(1)");
+  assert(await page.isVisible("#prompt"), "the prompt is a click away");
+  await page.click("#views label:nth-child(2)");
+  await page.waitForSelector(".cell");
+  await page.waitForTimeout(100);
+  assert((await top()) === before, "and the gallery comes back where it was");
 }
 
 async function searched({ page }, assert) {

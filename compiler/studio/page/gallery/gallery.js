@@ -26,6 +26,8 @@ class Gallery {
   #timer = null;
   #views;
   #mode = "pictures";
+  /** What grid and scatter show now. */
+  #listed = "";
 
   constructor(parts) {
     this.#parts = parts;
@@ -122,7 +124,8 @@ class Gallery {
 
   #list() {
     if (!this.#library) return;
-    const { places, without } = this.#library.choose(this.filters.wanted);
+    const { wanted } = this.filters;
+    const { places, without } = this.#library.choose(wanted);
     const { attribute } = this.filters;
     const values = attribute && this.#library.values[attribute.name];
     const compares = this.#mode === "compare";
@@ -133,6 +136,9 @@ class Gallery {
     this.plot.hidden = this.#mode !== "scatter" || places.length === 0;
     this.compare.element.hidden = !compares;
     this.following.hidden = this.#mode !== "pictures";
+    const listed = JSON.stringify([this.#library.id, wanted]);
+    if (listed === this.#listed) return;
+    this.#listed = listed;
     this.grid.show(this.#library, places, values && ((place) => valueText(attribute, values[place])));
     this.scatter.show(this.#library, places);
   }

@@ -26,13 +26,19 @@ export class Grid {
   #chosen = null;
   #layout = { columns: 1, width: 100, height: 100, gap: 8 };
   #frame = 0;
+  /** Where the view rests; a list that is hidden forgets it. */
+  #top = 0;
+  #hidden = true;
 
   /** `address(library, place)` is that of a picture; `pick(place)` takes a texture; `reached(place)` hears of the arrow keys. */
   constructor({ address, pick, reached }) {
     Object.assign(this, { address, pick, reached });
     this.element = element("div", { class: "cells", role: "listbox", tabindex: "0", "aria-label": texts.gallery.pictures },
       this.#sizer);
-    this.element.addEventListener("scroll", () => this.#request());
+    this.element.addEventListener("scroll", () => {
+      if (this.element.clientWidth > 0) this.#top = this.element.scrollTop;
+      this.#request();
+    });
     this.element.addEventListener("keydown", (event) => this.#key(event));
     this.element.addEventListener("focus", () => this.#active < 0 && this.#activate(this.#first()));
     this.#sizer.addEventListener("click", ({ target }) => {
@@ -52,7 +58,7 @@ export class Grid {
     this.#places = places;
     this.#note = note;
     this.#active = kept === undefined ? -1 : places.indexOf(kept);
-    this.element.scrollTop = 0;
+    this.#top = this.element.scrollTop = 0;
     this.#resize();
   }
 
@@ -77,7 +83,10 @@ export class Grid {
 
   #resize() {
     const { clientWidth } = this.element;
-    if (clientWidth === 0) return;
+    const shown = clientWidth > 0;
+    if (shown && this.#hidden) this.element.scrollTop = this.#top;
+    this.#hidden = !shown;
+    if (!shown) return;
     const gap = GAP_REM * rem();
     const columns = Math.max(Math.floor((clientWidth + gap) / (LEAST_REM * rem() + gap)), 1);
     const width = (clientWidth - (columns - 1) * gap) / columns;
