@@ -3,12 +3,15 @@
 //   STUDIO_MODULES=…/node_modules node browser.mjs ADDRESS CHROMIUM [PICTURES]
 //
 // STUDIO_MODULES has playwright-core and axe-core. ADDRESS is that of a running studio. With ASPERITY, a
-// path of the command, the worklet's ticks are compared with those of `asperity render`. PICTURES is a
+// path of the command, the worklet's ticks are compared with those of `asperity render`, and files that the page
+// gives, and textures of its gallery, with those of the command. PICTURES is a
 // folder that takes screenshots.
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
+import { files } from "./files.mjs";
+import { gallery } from "./gallery.mjs";
 import { output } from "./output.mjs";
 import { steer } from "./steer.mjs";
 import { firstSession, sameAsCommand } from "./ticks.mjs";
@@ -329,11 +332,14 @@ try {
   assert(visit.foreign.length === 0, `${visit.requests} requests, none to another address`);
   assert(visit.errors.length === 0, `no error on the console${visit.errors.map((text) => `: ${text}`).join("")}`);
   await visit.end();
-  const steered = await Visit.begin(browser, address);
-  await steered.page.evaluate(axe);
-  await steer(steered, { assert, asperity: process.env.ASPERITY, work });
-  assert(steered.errors.length === 0, `no error while steering${steered.errors.map((text) => `: ${text}`).join("")}`);
-  await steered.end();
+  const checks = process.env.ASPERITY ? [files, gallery, steer] : [];
+  for (const check of checks) {
+    const other = await Visit.begin(browser, address);
+    await other.page.evaluate(axe);
+    await check(other, { assert, asperity: process.env.ASPERITY, work });
+    assert(other.errors.length === 0 && other.foreign.length === 0, `no error on the console${other.errors.map((text) => `: ${text}`).join("")}`);
+    await other.end();
+  }
   await devices(browser);
   await failures(browser);
   console.log(`${count} assertions in ${((Date.now() - began) / 1000).toFixed(0)} s`);

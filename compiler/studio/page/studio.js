@@ -2,6 +2,8 @@
 
 import { startDevicePanel } from "./device/panel.js";
 import { fillTexts, find } from "./dom.js";
+import { startFiles } from "./files/files.js";
+import { startGallery } from "./gallery/gallery.js";
 import { startHandPanel } from "./hand-panel.js";
 import { Loader } from "./loader.js";
 import { notify } from "./notices.js";
@@ -31,6 +33,8 @@ startSoundPanel({ sound, hand });
 const loader = new Loader({ server, state, surface, sound });
 startTexturePanels({ state, loader });
 startSteering({ server, state, loader, sound });
+const gallery = startGallery({ server, state, loader });
+startFiles({ server, state, loader, gallery });
 let plots = mountPlots(find("plots"), texts.plots);
 const hearTicks = (ticks) => plots.addTicks(ticks);
 sound.onticks.push(hearTicks);

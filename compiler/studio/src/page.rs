@@ -23,14 +23,17 @@ macro_rules! files {
 /// Every file of `page/`.
 pub(crate) const FILES: &[File] = files! {
     "text/html; charset=utf-8": "index.html";
-    "text/css; charset=utf-8": "studio.css" "device/device.css" "output/output.css" "plots/plots.css"
+    "text/css; charset=utf-8": "studio.css" "device/device.css" "files/files.css" "gallery/gallery.css" "output/output.css" "plots/plots.css"
         "steer/steer.css";
     "text/javascript; charset=utf-8":
         "auto.js" "command.js" "devices.js" "dom.js" "force.js" "hand-panel.js" "hand.js" "history.js" "keys.js"
         "limiter.js" "lit.js" "loader.js" "notices.js" "path.js" "plain.js" "pointer.js" "prompt.js" "reading.js"
-        "readout.js" "recorder.js" "server.js" "sound-panel.js" "sound.js" "state.js" "studio.js" "suggest.js" "surface.js"
+        "readout.js" "recorder.js" "save.js" "server.js" "sound-panel.js" "sound.js" "state.js" "studio.js" "suggest.js" "surface.js"
         "texts.js" "texture-panels.js" "theme.js" "view.js" "worklet.js"
         "device/feed.js" "device/jitter.js" "device/panel.js"
+        "files/files.js" "files/in.js" "files/kinds.js" "files/out.js" "files/session.js"
+        "gallery/attributes.js" "gallery/compare.js" "gallery/filters.js" "gallery/gallery.js" "gallery/grid.js"
+        "gallery/hand-button.js" "gallery/library.js" "gallery/scatter.js" "gallery/span.js" "gallery/thumbnails.js" "gallery/views.js"
         "output/chain.js" "output/equaliser-panel.js" "output/equaliser.js" "output/modes.js" "output/motors-panel.js"
         "output/motors.js" "output/panel.js" "output/response.js" "output/shift.js" "output/tones-button.js"
         "output/tones.js"

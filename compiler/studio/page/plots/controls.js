@@ -1,5 +1,6 @@
 // The controls of the strip: freeze, scroll, save.
 
+import { save } from "../save.js";
 import { element } from "./figure.js";
 
 /** Ticks copied at once, a megabyte. */
@@ -21,7 +22,7 @@ export class Controls {
       scope.scroll(Number(this.slider.value) * scope.tick_hz);
       scrolled();
     });
-    const save = (label, name, table) => {
+    const saving = (label, name, table) => {
       const button = element("button", "plot-button", label);
       button.type = "button";
       button.addEventListener("click", async () => {
@@ -29,7 +30,7 @@ export class Controls {
         if (button.getAttribute("aria-busy") === "true") return;
         button.setAttribute("aria-busy", "true");
         try {
-          download(name, await written(table, scope));
+          save(name, await written(table, scope));
         } finally {
           button.removeAttribute("aria-busy");
         }
@@ -37,8 +38,8 @@ export class Controls {
       return button;
     };
     this.saves = [
-      save(texts.save, texts.file, "rendered"),
-      save(texts.save_trajectory, texts.trajectory_file, "trajectory"),
+      saving(texts.save, texts.file, "rendered"),
+      saving(texts.save_trajectory, texts.trajectory_file, "trajectory"),
     ];
     this.element = element("div", "plot-controls", this.button, this.slider, ...this.saves);
     this.update();
@@ -52,7 +53,7 @@ export class Controls {
     [this.slider.min, this.slider.max] = [ring.first / tick_hz, ring.end / tick_hz];
     this.slider.value = (frozen ? now : ring.end) / tick_hz;
     this.slider.setAttribute("aria-valuetext", this.texts.moment(now / tick_hz));
-    for (const save of this.saves) save.disabled = ring.end === ring.first;
+    for (const button of this.saves) button.disabled = ring.end === ring.first;
   }
 }
 
@@ -77,13 +78,4 @@ async function copyInto(worker, ring) {
     await new Promise((done) => setTimeout(done));
     tick = Math.max(tick, ring.first);
   }
-}
-
-function download(name, blob) {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(blob);
-  link.download = name;
-  link.click();
-  // Some browsers read it later than the click.
-  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }

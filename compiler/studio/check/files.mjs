@@ -1,0 +1,119 @@
+// Files in and out of the page: every download has the bytes of the command, and dropped files are opened or refused by name.
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { clean, downloaded, drop, run, shown } from "./aid.mjs";
+import { hattXml } from "./hatt.mjs";
+
+/** By the endings of the page: the command that writes such a file of `wet ice.asp`, and its name. */
+const COMMANDS = {
+  asp: [["compile", "wet ice", "-o", "wet ice.asp"], "wet ice.asp"],
+  json: [["inspect", "wet ice.asp", "--json"], null],
+  png: [["preview", "wet ice.asp", "-o", "wet ice.png"], "wet ice.png"],
+  "normal.png": [["preview", "wet ice.asp", "-o", "drawn.png", "--normal", "normal.png", "--height", "height.png"], "normal.png"],
+  "height.png": [null, "height.png"],
+  "plot.png": [["plot", "wet ice.asp", "-o", "plot.png"], "plot.png"],
+  "listen.wav": [["listen", "wet ice.asp", "-o", "listen.wav"], "listen.wav"],
+  "export.wav": [["export", "wet ice.asp", "--to", "wav", "-o", "export.wav"], "export.wav"],
+  "export.csv": [["export", "wet ice.asp", "--to", "csv", "-o", "export.csv"], "export.csv"],
+  "export.hjif": [["export", "wet ice.asp", "--to", "hjif", "-o", "export.hjif"], "export.hjif"],
+  "export.hmpg": [["export", "wet ice.asp", "--to", "hmpg", "-o", "export.hmpg"], "export.hmpg"],
+  "export.ahap": [["export", "wet ice.asp", "--to", "ahap", "-o", "export.ahap"], "export.ahap"],
+  "export.haptic": [["export", "wet ice.asp", "--to", "haptic", "-o", "export.haptic"], "export.haptic"],
+  "export.gltf": [["export", "wet ice.asp", "--to", "gltf", "-o", "export.gltf"], "export.gltf"],
+  "export.c": [["export", "wet ice.asp", "--to", "c-array", "-o", "wet ice.c"], "wet ice.c"],
+  "export.h": [null, "wet ice.h"],
+  "export.rs": [["export", "wet ice.asp", "--to", "rust", "-o", "export.rs"], "export.rs"],
+};
+
+async function out({ page }, { assert, asperity, folder }) {
+  await page.click("#take-button");
+  const endings = await page.$$eval(".kind", (all) => all.map(({ dataset }) => dataset.ending));
+  const missing = Object.keys(COMMANDS).filter((ending) => !endings.includes(ending));
+  assert(missing.length === 0, `the panel offers ${endings.length} files, none is missing${missing.map((ending) => `: ${ending}`).join("")}`);
+  const names = [];
+  for (const [ending, [args, file]] of Object.entries(COMMANDS)) {
+    const printed = args && run(asperity, folder, ...args, ...(file ? ["--quiet"] : []));
+    const { name, bytes } = await downloaded(page, () => page.click(`.kind[data-ending="${ending}"]`));
+    names.push(name);
+    assert(bytes.equals(file ? readFileSync(join(folder, file)) : printed), `“${name}” has the bytes of the command`);
+  }
+  assert(new Set(names).size === names.length && names.every((name) => name.startsWith("wet ice")), "each has a name of its own");
+  await clean(page, assert, "in the panel of files", "dark");
+  await page.keyboard.press("Escape");
+  assert(await page.isHidden("#take"), "Escape closes the panel");
+}
+
+async function pack(visit, { assert, asperity, folder }) {
+  const { page } = visit;
+  await visit.compile("cork");
+  await page.focus("#take-button");
+  await page.keyboard.press("Enter");
+  const name = page.locator(".packs li:first-child input[type=text]");
+  assert((await name.inputValue()) === "cork", "what was made last is listed first");
+  await name.fill("wet ice");
+  await page.click("#pack");
+  assert((await page.textContent(".session-library .error")).includes("Two textures are named “wet ice”"), "a name that is there twice is refused by name");
+  await name.fill("dry cork");
+  const { bytes, name: file } = await downloaded(page, () => page.click("#pack"));
+  run(asperity, folder, "compile", "cork", "-o", "cork.asp", "--quiet");
+  writeFileSync(join(folder, "session.csv"), "name,asset\nwet ice,wet ice.asp\ndry cork,cork.asp\n");
+  run(asperity, folder, "build", "session.csv", "-o", "session.aspl", "--no-cache", "--quiet");
+  assert(bytes.equals(readFileSync(join(folder, "session.aspl"))), `“${file}” has the bytes of asperity build`);
+  await page.keyboard.press("Escape");
+}
+
+/** Files to open, with the name and the bytes of what they become. */
+function inputs(asperity, folder) {
+  writeFileSync(join(folder, "Models_Test Board.xml"), hattXml("Test Board"));
+  run(asperity, folder, "import", "hatt", "Models_Test Board.xml", "-o", "board.asp", "--quiet");
+  run(asperity, folder, "import", "haptic", "export.haptic", "-o", "effect.asp", "--quiet");
+  run(asperity, folder, "builtin", "-o", "grit.asp", "--quiet");
+  const file = (name, asset) => ({ name, bytes: readFileSync(join(folder, name)), asset: readFileSync(join(folder, asset)),
+    title: JSON.parse(run(asperity, folder, "inspect", asset, "--json")).name });
+  return [file("grit.asp", "grit.asp"), file("Models_Test Board.xml", "board.asp"), file("export.haptic", "effect.asp")];
+}
+
+async function opened(visit, { assert, asperity, folder }) {
+  const { page } = visit;
+  const files = inputs(asperity, folder);
+  for (const { name, title, asset, bytes } of files) {
+    await drop(page, [{ name, bytes }], async () => assert(await page.isVisible("#drop"), "a target is shown while files are dragged"));
+    await shown(page, title);
+    await page.click("#take-button");
+    const { bytes: kept } = await downloaded(page, () => page.click('.kind[data-ending="asp"]'));
+    assert(kept.equals(asset), `${name} is opened by a drop, with the bytes of the command`);
+    await page.keyboard.press("Escape");
+  }
+  assert(await page.isHidden("#drop"), "the target goes with the drop");
+
+  const library = { name: "session.aspl", bytes: readFileSync(join(folder, "session.aspl")) };
+  const broken = { name: "broken.asp", bytes: files[0].bytes.subarray(0, 900) };
+  const strange = { name: "notes.txt", bytes: Buffer.from("nothing to feel") };
+  await drop(page, [files[0], broken, strange, library, files[1]]);
+  await shown(page, files[1].title);
+  const notices = await page.$$eval(".notice p", (all) => all.map(({ textContent }) => textContent));
+  assert(notices.length === 2 && notices[0].includes("broken.asp") && notices[1].includes("notes.txt"),
+    `of five files, two are refused by name: ${notices.join(" | ")}`);
+  // The browser logs what a server refuses.
+  const logged = visit.errors.splice(0);
+  assert(logged.length === 2 && logged.every((text) => text.includes("status of 4")), "and nothing else is on the console");
+  assert((await page.$$(".cell")).length === 2, "a library is shown in the gallery");
+  await clean(page, assert, "with files that were refused", "light");
+  for (const button of await page.$$(".notice button:last-child")) await button.click();
+
+  await page.focus("#open");
+  const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.keyboard.press("Enter")]);
+  await chooser.setFiles(join(folder, "grit.asp"));
+  await shown(page, files[0].title);
+  assert(true, "a file is opened by keys alone");
+}
+
+export async function files(visit, { assert, asperity, work }) {
+  const folder = join(work, "files");
+  mkdirSync(folder);
+  const tools = { assert, asperity, folder };
+  await visit.compile("wet ice");
+  await out(visit, tools);
+  await pack(visit, tools);
+  await opened(visit, tools);
+}

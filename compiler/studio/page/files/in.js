@@ -1,0 +1,101 @@
+// Files into the page: by drop anywhere, or chosen; several one after another.
+
+import { announce, element, find } from "../dom.js";
+import { notify, withdraw } from "../notices.js";
+import { Refusal, Silence } from "../server.js";
+import { texts } from "../texts.js";
+
+/** Bytes that the server takes. */
+const MOST_BYTES = 64 * 2 ** 20;
+
+/** Why a file is not even sent: { text, help }, or `null`. */
+function unfit(file, folder) {
+  if (folder) return { text: texts.files.folder(file.name), help: texts.files.folder_help };
+  if (file.size > MOST_BYTES) return { text: texts.files.large(file.name, file.size / 2 ** 20), help: texts.files.large_help };
+  return null;
+}
+
+export class In {
+  #parts;
+  #queue = [];
+  #done = 0;
+  #busy = false;
+
+  constructor(parts) {
+    this.#parts = parts;
+    find("drop").append(element("p", {}, element("strong", {}, texts.files.drop), " ", texts.files.drop_kinds));
+    const chooser = find("open-files");
+    find("open").addEventListener("click", () => chooser.click());
+    chooser.addEventListener("change", () => {
+      this.open([...chooser.files].map((file) => ({ file })));
+      // So that the same file can be chosen again.
+      chooser.value = "";
+    });
+    this.#followDrags();
+  }
+
+  /** Opens files: [{ file, folder }]. */
+  async open(files) {
+    this.#queue.push(...files);
+    if (this.#busy) return;
+    this.#busy = true;
+    this.#done = 0;
+    while (this.#queue.length > 0) {
+      const { file, folder } = this.#queue.shift();
+      this.#done++;
+      find("opening").textContent = texts.files.opening(file.name, this.#done, this.#done + this.#queue.length);
+      const key = `open ${file.name}`;
+      withdraw(key);
+      const fault = unfit(file, folder) ?? (await this.#send(file));
+      if (fault) notify(key, fault);
+      else announce(texts.files.opened(file.name));
+    }
+    find("opening").textContent = "";
+    this.#busy = false;
+  }
+
+  /** Shows what is in a file; gives what went wrong, or `null`. */
+  async #send(file) {
+    const { server, loader, gallery } = this.#parts;
+    try {
+      // A file that cannot be read would look like a server that does not answer.
+      const body = new File([await file.arrayBuffer()], file.name);
+      const { texture, library } = await server.open(body);
+      if (library) await gallery.add(library);
+      else await loader.take(async () => texture, { kind: "open", name: file.name });
+      return null;
+    } catch (error) {
+      if (error instanceof DOMException) return { text: texts.files.unread(file.name), help: texts.files.unread_help };
+      if (error instanceof Silence) return { text: texts.files.not_opened(file.name, error.message), help: texts.server.gone_help };
+      if (!(error instanceof Refusal)) throw error;
+      const named = error.message.includes(file.name);
+      return { text: named ? error.message : texts.files.not_opened(file.name, error.message), help: error.help };
+    }
+  }
+
+  #followDrags() {
+    const target = find("drop");
+    const brings = ({ dataTransfer }) => dataTransfer?.types.includes("Files");
+    // Leaving one element for another one within the page is no end.
+    let depth = 0;
+    const show = (by) => {
+      depth = by === 0 ? 0 : Math.max(depth + by, 0);
+      target.hidden = depth === 0;
+    };
+    addEventListener("dragenter", (event) => brings(event) && show(1));
+    addEventListener("dragleave", (event) => brings(event) && show(-1));
+    addEventListener("dragover", (event) => {
+      if (!brings(event)) return;
+      event.preventDefault();
+      event.dataTransfer.dropEffect = "copy";
+    });
+    addEventListener("drop", (event) => {
+      if (!brings(event)) return;
+      event.preventDefault();
+      show(0);
+      const items = [...event.dataTransfer.items].filter(({ kind }) => kind === "file");
+      this.open(items.map((item) => ({ file: item.getAsFile(), folder: item.webkitGetAsEntry?.()?.isDirectory ?? false }))
+        .filter(({ file }) => file));
+    });
+  }
+}

@@ -1,0 +1,178 @@
+// The gallery: which library is shown, how, and what is picked from it.
+
+import { element, find } from "../dom.js";
+import { notify, withdraw } from "../notices.js";
+import { Refusal, Silence } from "../server.js";
+import { texts } from "../texts.js";
+import { valueText } from "./attributes.js";
+import { Compare } from "./compare.js";
+import { Filters } from "./filters.js";
+import { Grid } from "./grid.js";
+import { handButton } from "./hand-button.js";
+import { Library } from "./library.js";
+import { mountScatter } from "./scatter.js";
+import { startViews } from "./views.js";
+
+/** How long the arrow keys rest before what they reached is picked, ms. */
+const REACHED_MS = 150;
+
+class Gallery {
+  #parts;
+  #libraries = [];
+  #library = null;
+  /** Where the textures that were picked come from, by their names on the server. */
+  #origins = new Map();
+  #current = null;
+  #timer = null;
+  #views;
+  #mode = "pictures";
+  /** What grid and scatter show now. */
+  #listed = "";
+
+  constructor(parts) {
+    this.#parts = parts;
+    const { server, state } = parts;
+    const pick = (place) => this.#pick(this.#library, place);
+    this.grid = new Grid({ address: (library, place) => server.thumbnail(library, place), pick,
+      reached: (place) => this.#reached(place) });
+    this.plot = element("div", { class: "plots scatter" });
+    this.compare = new Compare({ server, pick: (library, name) => this.#pick(library, library.placeOf(name)) });
+    this.filters = new Filters(() => this.#list());
+    this.#build();
+    this.scatter = mountScatter(this.plot, pick);
+    this.#views = startViews(() => this.#list());
+    let begun = false;
+    state.on(["about"], ({ about }) => {
+      if (!about || begun) return;
+      begun = true;
+      if (about.library?.id) this.add(about.library);
+    });
+    state.on(["texture"], ({ texture }) => this.#mark(texture));
+  }
+
+  /** Shows a library, as the server describes it, and keeps it with those that were there. */
+  async add({ id, name }) {
+    try {
+      const known = this.#libraries.find((library) => library.id === id);
+      const library = known ?? new Library(await this.#parts.server.library(id));
+      if (!known) this.#libraries.push(library);
+      withdraw("gallery");
+      this.#offer();
+      this.#show(library);
+      this.#views.show("gallery");
+    } catch (error) {
+      if (!(error instanceof Refusal) && !(error instanceof Silence)) throw error;
+      notify("gallery", { text: texts.gallery.failed(name, error.message), help: error.help ?? texts.server.gone_help,
+        action: { label: texts.server.retry, run: () => this.add({ id, name }) } });
+    }
+  }
+
+  #build() {
+    this.choice = element("select", { id: "gallery-library", "aria-label": texts.gallery.library, hidden: true,
+      onchange: ({ target }) => this.#show(this.#libraries.find(({ id }) => id === target.value)) });
+    this.name = element("span", { class: "library" });
+    this.count = element("p", { class: "small", role: "status" });
+    this.modes = element("div", { class: "segments modes", role: "group", "aria-label": texts.gallery.show });
+    this.follow = element("input", { type: "checkbox", id: "gallery-follow", checked: true });
+    this.following = element("label", { class: "small follow" }, this.follow, " ", texts.gallery.follow);
+    this.none = element("p", { class: "none" }, texts.gallery.nothing, " ",
+      element("button", { type: "button", class: "quiet", onclick: () => this.filters.reset() }, texts.gallery.reset));
+    this.body = element("div", { class: "shelf", hidden: true },
+      element("div", { class: "tools" }, this.filters.element,
+        element("div", { class: "row" }, this.modes, this.count)),
+      this.grid.element, this.plot, this.compare.element, this.none,
+      element("div", { class: "row" }, this.following, handButton()));
+    this.invitation = element("div", { class: "start" }, element("p", {}, texts.gallery.invitation),
+      element("button", { type: "button", class: "strong", onclick: () => find("open").click() }, texts.files.open),
+      element("p", { class: "small" }, texts.gallery.invitation_command),
+      element("code", {}, texts.gallery.command));
+    find("gallery").append(
+      element("div", { class: "row" }, element("h2", { id: "gallery-title" }, texts.gallery.title), this.name, this.choice),
+      this.invitation, this.body);
+  }
+
+  #offer() {
+    const several = this.#libraries.length > 1;
+    this.choice.hidden = !several;
+    this.name.hidden = several;
+    this.choice.replaceChildren(...this.#libraries.map(({ id, name, count }) =>
+      element("option", { value: id }, texts.gallery.named(name, count))));
+    this.compare.offer(this.#libraries);
+    const modes = ["pictures", "scatter", ...(several ? ["compare"] : [])];
+    this.modes.style.gridTemplateColumns = `repeat(${modes.length}, auto)`;
+    this.modes.replaceChildren(...modes.map((mode) => element("label", {},
+      element("input", { type: "radio", name: "gallery-mode", value: mode, checked: mode === this.#mode,
+        onchange: () => this.#turn(mode) }), element("span", {}, texts.gallery.modes[mode]))));
+  }
+
+  #turn(mode) {
+    this.#mode = mode;
+    this.#list();
+    if (mode === "compare") this.compare.open();
+  }
+
+  #show(library) {
+    this.#library = library;
+    this.choice.value = library.id;
+    this.name.textContent = texts.gallery.named(library.name, library.count);
+    this.invitation.hidden = true;
+    this.body.hidden = false;
+    this.filters.begin(library);
+    this.#list();
+    this.#mark(this.#parts.state.get("texture"), true);
+  }
+
+  #list() {
+    if (!this.#library) return;
+    const { wanted } = this.filters;
+    const { places, without } = this.#library.choose(wanted);
+    const { attribute } = this.filters;
+    const values = attribute && this.#library.values[attribute.name];
+    const compares = this.#mode === "compare";
+    this.count.textContent = compares ? "" : texts.gallery.found(places.length, this.#library.count, without);
+    this.none.hidden = compares || places.length > 0;
+    this.filters.element.hidden = compares;
+    this.grid.element.hidden = this.#mode !== "pictures" || places.length === 0;
+    this.plot.hidden = this.#mode !== "scatter" || places.length === 0;
+    this.compare.element.hidden = !compares;
+    this.following.hidden = this.#mode !== "pictures";
+    const listed = JSON.stringify([this.#library.id, wanted]);
+    if (listed === this.#listed) return;
+    this.#listed = listed;
+    this.grid.show(this.#library, places, values && ((place) => valueText(attribute, values[place])));
+    this.scatter.show(this.#library, places);
+  }
+
+  #reached(place) {
+    clearTimeout(this.#timer);
+    if (this.follow.checked) this.#timer = setTimeout(() => this.#pick(this.#library, place), REACHED_MS);
+  }
+
+  #pick(library, place) {
+    clearTimeout(this.#timer);
+    const { server, loader } = this.#parts;
+    loader.take(async (signal) => {
+      const texture = await server.pick(library, place, signal);
+      this.#origins.set(texture.id, { library, place });
+      return texture;
+    }, { kind: "pick", name: library.names[place] });
+  }
+
+  /** Marks the texture on the surface in the library that is shown. */
+  #mark(texture, scroll = false) {
+    const origin = texture && this.#origins.get(texture.id);
+    const place = origin?.library === this.#library ? (origin?.place ?? null) : null;
+    this.grid.choose(place, scroll);
+    this.scatter.choose(place);
+  }
+}
+
+export function startGallery(parts) {
+  const { loader } = parts;
+  const gallery = new Gallery(parts);
+  loader.onrefused.push(({ message, help }, how) => {
+    if (how?.kind === "pick") notify("pick", { text: texts.gallery.not_picked(how.name, message), help });
+  });
+  loader.onshown.push((_texture, { kind }) => kind === "pick" && withdraw("pick"));
+  return gallery;
+}
