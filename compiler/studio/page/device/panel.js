@@ -18,7 +18,7 @@ const stateOf = (flags) => STATES.find(([bit]) => flags & bit)?.[1] ?? "free";
 /** Builds the panel where `about` names a device. `plots` gives those of a tick rate. */
 export function startDevicePanel({ server, state, surface, plots }) {
   state.on(["about"], ({ about }) => {
-    const panel = find("device-panel");
+    const panel = find("servo-panel");
     if (!about?.device || !panel.hidden) return;
     panel.hidden = false;
     new DevicePanel({ server, state, surface, plots: plots(about.device.rate_hz) }, about.device);
@@ -40,8 +40,8 @@ class DevicePanel {
     this.#parts = parts;
     this.#jitter = new Jitter(rate_hz);
     const value = (key) => [element("dt", {}, texts.device[key]), (this.#values[key] = element("dd", {}, texts.readout.none))];
-    find("device-name").textContent = texts.device.name(name, rate_hz);
-    find("device").replaceChildren(
+    find("servo-name").textContent = texts.device.name(name, rate_hz);
+    find("servo").replaceChildren(
       element("p", { class: "row" }, this.#badge),
       element("dl", { class: "rows" }, ...["playing", "force", "wakeup", "compute", "missed", "lost"].flatMap(value)),
       element("figure", {}, this.#jitter.element, element("figcaption", { class: "small" }, texts.device.jitter)),
@@ -58,10 +58,10 @@ class DevicePanel {
   /** The button that plays what the page shows, and the choice to do so at once. */
   #swap() {
     const { state } = this.#parts;
-    const button = element("button", { type: "button", class: "strong", id: "device-play" }, texts.device.play);
-    const box = element("input", { type: "checkbox", id: "device-follow" });
-    box.checked = recall("device-follow", false);
-    box.addEventListener("change", () => remember("device-follow", box.checked));
+    const button = element("button", { type: "button", class: "strong", id: "servo-play-button" }, texts.device.play);
+    const box = element("input", { type: "checkbox", id: "servo-follow" });
+    box.checked = recall("servo-follow", false);
+    box.addEventListener("change", () => remember("servo-follow", box.checked));
     button.addEventListener("click", () => this.#play(state.get("texture")));
     state.on(["texture"], ({ texture }) => {
       button.disabled = !texture;
