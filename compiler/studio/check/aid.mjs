@@ -4,7 +4,7 @@ import { readFileSync } from "node:fs";
 
 /** Runs the command in a folder; what it prints. */
 export const run = (asperity, cwd, ...args) =>
-  execFileSync(asperity, args, { cwd, stdio: ["ignore", "pipe", "inherit"], maxBuffer: 1 << 28 });
+  execFileSync(asperity, args, { cwd, stdio: ["ignore", "pipe", "pipe"], maxBuffer: 1 << 28 });
 
 /** The file that the page gives by `act`: { name, bytes }. */
 export async function downloaded(page, act) {
