@@ -1,6 +1,7 @@
-// What the checks of gallery and files share.
+// What the checks of the page share.
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
+import { join } from "node:path";
 
 /** Runs the command in a folder; what it prints. */
 export const run = (asperity, cwd, ...args) =>
@@ -34,15 +35,22 @@ export async function drop(page, files, over = async () => {}) {
 export const shown = (page, name) =>
   page.waitForFunction((name) => document.getElementById("surface-title").textContent === name, name);
 
+/** Windows, and the one of a scheme in which axe looks: twelve looks at each state would take minutes. */
+const WINDOWS = [["light", 2560, 1300], ["light", 1280, 800], ["dark", 360, 740]];
 const LOOKS = { light: 1280, dark: 360 };
 
-/** Whether something is cut off at any width, and what axe says of the page as it is, in a wide light or a narrow dark window. */
+/**
+ * Whether something is cut off at any width, and what axe says of the page as it is. With STUDIO_PICTURES,
+ * a folder, it also takes screenshots.
+ */
 export async function clean(page, assert, what, scheme) {
-  for (const [colorScheme, width, height] of [["light", 2560, 1300], ["light", 1280, 800], ["dark", 360, 740]]) {
+  for (const [colorScheme, width, height] of WINDOWS) {
     await page.emulateMedia({ colorScheme, reducedMotion: "reduce" });
     await page.setViewportSize({ width, height });
     await page.waitForTimeout(150);
     assert(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `nothing is cut off at the side ${what}, ${width} px`);
+    const folder = process.env.STUDIO_PICTURES;
+    if (folder) await page.screenshot({ path: join(folder, `studio-${what.replaceAll(" ", "-")}-${colorScheme}-${width}.png`) });
     if (width !== LOOKS[scheme]) continue;
     const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
     const list = violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target).join(", ")}`);

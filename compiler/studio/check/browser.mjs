@@ -1,15 +1,16 @@
 // Drives the studio's page in a real Chromium, as people do: keys, pen, fingers; and asserts what comes out.
 //
-//   STUDIO_MODULES=…/node_modules node browser.mjs ADDRESS CHROMIUM [PICTURES]
+//   STUDIO_MODULES=…/node_modules node browser.mjs ADDRESS CHROMIUM
 //
 // STUDIO_MODULES has playwright-core and axe-core. ADDRESS is that of a running studio. With ASPERITY, a
 // path of the command, the worklet's ticks are compared with those of `asperity render`, and files that the page
-// gives, and textures of its gallery, with those of the command. PICTURES is a
-// folder that takes screenshots.
+// gives, and textures of its gallery, with those of the command. STUDIO_PICTURES is a folder that takes
+// screenshots.
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
+import { clean } from "./aid.mjs";
 import { files } from "./files.mjs";
 import { gallery } from "./gallery.mjs";
 import { output } from "./output.mjs";
@@ -23,9 +24,8 @@ const [FULL_N, SLIDER_N] = [3, 1];
 const TICK_HZ = 16000;
 /** Pixels of the page a millimetre, before any zoom. */
 const PX_MM = 5;
-const WIDTHS = [360, 1280, 2560];
 
-const [address, executablePath, pictures] = process.argv.slice(2);
+const [address, executablePath] = process.argv.slice(2);
 const need = createRequire(join(resolve(process.env.STUDIO_MODULES ?? "node_modules"), "/"));
 const { chromium } = need("playwright-core");
 const axe = readFileSync(need.resolve("axe-core/axe.min.js"), "utf8");
@@ -240,26 +240,6 @@ async function devices(browser) {
   await visit.end();
 }
 
-async function accessible(visit, schemes, what) {
-  const { page } = visit;
-  for (const scheme of schemes) {
-    await page.emulateMedia({ colorScheme: scheme, reducedMotion: "reduce" });
-    for (const width of WIDTHS) {
-      await page.setViewportSize({ width, height: width < 700 ? 740 : width > 2000 ? 1000 : 800 });
-      await page.waitForTimeout(150);
-      const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
-      const list = violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target).join(", ")}`);
-      assert(list.length === 0, `axe finds nothing ${what}, ${scheme}, ${width} px${list.length ? `: ${list.join("; ")}` : ""}`);
-      const beyond = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
-      assert(beyond <= 0, "nothing is cut off at the side");
-      if (!pictures) continue;
-      const path = join(pictures, `studio-${what.replaceAll(" ", "-")}-${scheme}-${width}.png`);
-      await page.screenshot({ path, fullPage: width < 700 });
-    }
-  }
-  await page.setViewportSize({ width: 1280, height: 800 });
-}
-
 /** What goes wrong is said, with its remedy. The browser logs some of these itself. */
 async function failures(browser) {
   const visit = await Visit.begin(browser, address);
@@ -313,7 +293,7 @@ try {
   console.log(`${browser.browserType().name()} ${browser.version()}`);
   const visit = await Visit.begin(browser, address);
   await visit.page.evaluate(axe);
-  await accessible(visit, ["light"], "before a prompt");
+  await clean(visit.page, assert, "before a prompt", "light");
   await prompts(visit);
   await pen(visit);
   if (process.env.ASPERITY) {
@@ -326,9 +306,9 @@ try {
   await fingers(visit);
   await markup(visit);
   await limiter(visit);
-  await output(visit, { assert, asperity: process.env.ASPERITY, work, accessible });
+  await output(visit, { assert, asperity: process.env.ASPERITY, work });
   await visit.compile("ruff sandpapr with very high grit, and quantum");
-  await accessible(visit, ["light", "dark"], "with a texture");
+  for (const scheme of ["light", "dark"]) await clean(visit.page, assert, "with a texture", scheme);
   assert(visit.foreign.length === 0, `${visit.requests} requests, none to another address`);
   assert(visit.errors.length === 0, `no error on the console${visit.errors.map((text) => `: ${text}`).join("")}`);
   await visit.end();

@@ -3,7 +3,8 @@ import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { Fft } from "../page/plots/fft.js";
-import { after, bytesOf, clean, shown } from "./steering.mjs";
+import { clean } from "./aid.mjs";
+import { after, bytesOf, shown } from "./steering.mjs";
 
 /** What levels are matched at. */
 const STROKE = { speed_mm_s: 100, force_n: 1, seconds: 30, rate_hz: 1000 };
@@ -77,7 +78,7 @@ export async function compare(visit, tools) {
   if (tools.asperity) assert(Math.abs(a - b) < 0.5, `slots ${apart} dB apart play ${(a - b).toFixed(2)} dB apart with matched levels`);
   assert((await page.textContent("#compare .told")).includes("100 mm/s"), "the page says what they are matched at");
 
-  await clean(page, tools, { colorScheme: "light" }, 1280, "with slots");
+  await clean(page, tools.assert, "with slots", "light");
   await page.click("#blind");
   await page.waitForFunction(() => document.body.classList.contains("blind"));
   await page.waitForTimeout(300);
@@ -100,7 +101,7 @@ export async function compare(visit, tools) {
     const text = await seen();
     assert(names.every((name) => !text.includes(name)), `blind, number ${n} plays and no name is seen${(await swaps()) > before ? "" : " (it played already)"}`);
   }
-  await clean(page, tools, { colorScheme: "dark" }, 1280, "while comparing blindly");
+  await clean(page, tools.assert, "while comparing blindly", "dark");
   await page.keyboard.press("Control+z");
   assert(await page.evaluate(() => document.body.classList.contains("blind")), "undo does not give it away");
   await page.click("#blind");

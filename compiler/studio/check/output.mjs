@@ -2,6 +2,7 @@
 import { readFileSync } from "node:fs";
 import { renderedCsv } from "../page/plots/csv.js";
 import { Ring } from "../page/plots/ring.js";
+import { clean } from "./aid.mjs";
 import { channels, modes, responseAt, spectrum } from "./offline.mjs";
 
 /** Ticks in which the hand gets up to its speed, and its speed, mm/s. */
@@ -89,7 +90,7 @@ async function fourChannels(visit, { assert }) {
   await page.selectOption("#mode", "plain");
 }
 
-async function equaliser(visit, { assert, accessible }) {
+async function equaliser(visit, { assert }) {
   const { page } = visit;
   await page.click("#equaliser summary");
   await page.focus("#band-60");
@@ -125,7 +126,7 @@ async function equaliser(visit, { assert, accessible }) {
   await page.keyboard.press("ArrowLeft");
   const plays = () => page.evaluate(() => document.getElementById("tones").getAttribute("aria-pressed") === "true");
   assert((await plays()) && (await page.inputValue("#band-110")) === "-1", "a key that sets a band leaves them on");
-  await accessible(visit, ["light", "dark"], "with equaliser and motors");
+  await clean(visit.page, assert, "with equaliser and motors", "dark");
   await page.keyboard.press("x");
   assert(!(await plays()), "any other key stops them");
   await page.focus("#tones");
@@ -186,7 +187,6 @@ async function tables(visit, { assert }) {
   await page.evaluate(() => scrollTo(0, 0));
 }
 
-/** `accessible(visit, schemes, what)` has axe look at the page. */
 export async function output(visit, tools) {
   if (tools.asperity) await spectrum(visit, tools);
   await modes(visit, tools);

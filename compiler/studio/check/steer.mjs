@@ -5,7 +5,8 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { Session } from "../page/steer/session.js";
 import { compare } from "./compare.mjs";
-import { after, bytesOf, clean, same, shown } from "./steering.mjs";
+import { clean } from "./aid.mjs";
+import { after, bytesOf, same, shown } from "./steering.mjs";
 
 async function sliders(visit, tools) {
   const { page } = visit;
@@ -126,7 +127,7 @@ async function mixtures(visit, tools) {
   const composed = await after(page, () => page.click("#mix fieldset:nth-child(2) > button"));
   await same(page, tools, composed, "a composition");
   await page.click(".finer summary");
-  await clean(page, tools, { colorScheme: "dark" }, 360, "with everything open");
+  await clean(page, tools.assert, "with everything open", "dark");
   for (const part of [".mix", ".finer"]) await page.click(`${part} summary`);
 }
 

@@ -48,16 +48,3 @@ export async function same(page, tools, now, what, files = {}) {
   const wanted = written(tools, now.command, what.replaceAll(/\W+/g, "-"), files);
   tools.assert(wanted.equals(await bytesOf(page, now.id)), `${what}: the bytes of ${now.command.split("\n").at(-1)}`);
 }
-
-/** What axe says of the page as it is; nothing where the page was not given axe. */
-export async function clean(page, { assert }, media, width, what) {
-  await page.emulateMedia({ ...media, reducedMotion: "reduce" });
-  await page.setViewportSize({ width, height: 800 });
-  await page.waitForTimeout(150);
-  const violations = await page.evaluate(async () => (window.axe ? (await window.axe.run(document, { resultTypes: ["violations"] })).violations : []));
-  const list = violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target).join(", ")}`);
-  assert(list.length === 0, `axe finds nothing ${what}, ${media.colorScheme}, ${width} px${list.map((text) => `; ${text}`).join("")}`);
-  assert(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "nothing is cut off at the side");
-  await page.emulateMedia({ colorScheme: "light", reducedMotion: "no-preference" });
-  await page.setViewportSize({ width: 1280, height: 800 });
-}
