@@ -17,7 +17,7 @@ use std::thread::{self, JoinHandle};
 pub enum Form {
     /// A table (CSV).
     Table,
-    /// A recording (`docs/recording-format.md`).
+    /// A recording (`formats/RECORDING.md`).
     SessionLog,
 }
 

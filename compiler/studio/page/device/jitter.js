@@ -1,6 +1,7 @@
 // How late the servo loop woke in the last ten seconds: a histogram over decades of microseconds.
 
 import { element } from "../dom.js";
+import { texts } from "../texts.js";
 
 const KEPT_S = 10;
 /** Bins from 0.1 µs to 100 ms, 8 a decade. */
@@ -15,7 +16,7 @@ export const binOf = (us) => {
 };
 
 export class Jitter {
-  element = element("canvas", { class: "jitter", role: "img" });
+  element = element("canvas", { class: "jitter", role: "img", "aria-label": texts.device.jitter });
   #counts = new Float64Array(BINS);
   /** Bins of the ticks that are kept, a ring. */
   #bins;
@@ -51,14 +52,14 @@ export class Jitter {
     // One tick among thousands is what one looks for, so counts are logarithmic.
     const most = Math.log1p(Math.max(1, ...this.#counts));
     const step = width / BINS;
-    ctx.fillStyle = style.getPropertyValue("--accent");
+    ctx.fillStyle = style.color;
     this.#counts.forEach((count, bin) => {
       const height = count > 0 ? Math.max((Math.log1p(count) / most) * (floor - 2), 2) : 0;
       ctx.fillRect(bin * step + 0.5, floor - height, Math.max(step - 1, 1), height);
     });
-    ctx.fillStyle = style.getPropertyValue("--line");
+    // Variables of two themes are resolved in properties alone.
+    ctx.fillStyle = style.borderTopColor;
     ctx.fillRect(0, floor, width, 1);
-    ctx.fillStyle = style.color;
     ctx.font = style.font;
     ctx.textAlign = "center";
     for (const [decade, label] of LABELS) ctx.fillText(label, ((decade - LOW) / (HIGH - LOW)) * width, HEIGHT_PX - 3);

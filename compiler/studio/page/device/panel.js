@@ -10,6 +10,8 @@ import { Jitter } from "./jitter.js";
 /** Bits of the runtime's flags (`runtime/src/events.rs`), the first that is set counts. */
 const STATES = [[1 << 7, "safe"], [1 << 8, "ramping"], [1, "contact"]];
 const MOST_TEXTS = 6;
+/** Shares of the ticks, as the server names them. */
+const LATENCIES = ["p50", "p99", "p99_9", "max"];
 /** Numbers change no more often than eyes follow, ms. */
 const SHOW_MS = 200;
 
@@ -43,7 +45,8 @@ class DevicePanel {
     find("servo-name").textContent = texts.device.name(name, rate_hz);
     find("servo").replaceChildren(
       element("p", { class: "row" }, this.#badge),
-      element("dl", { class: "rows" }, ...["playing", "force", "wakeup", "compute", "missed", "lost"].flatMap(value)),
+      element("dl", { class: "rows" }, ...["playing", "force", "missed", "lost"].flatMap(value)),
+      this.#latencies(),
       element("figure", {}, this.#jitter.element, element("figcaption", { class: "small" }, texts.device.jitter)),
       ...(swaps ? this.#swap() : [element("p", { class: "small" }, texts.device.scene)]),
       this.#said);
@@ -53,6 +56,16 @@ class DevicePanel {
     this.#feed.onsilence = (error) => error
       ? notify("servo", { text: texts.device.silent, help: error.help ?? texts.device.silent_help }) : withdraw("servo");
     this.#feed.run();
+  }
+
+  /** A table: how late the loop woke and what a tick took, at a few shares of the ticks. */
+  #latencies() {
+    const row = (key) => {
+      this.#values[key] = LATENCIES.map(() => element("td", {}));
+      return element("tr", {}, element("th", { scope: "row" }, texts.device[key]), ...this.#values[key]);
+    };
+    const heads = [texts.device.latency, ...texts.device.shares].map((text) => element("th", { scope: "col" }, text));
+    return element("table", { class: "latency" }, element("tr", {}, ...heads), row("wakeup"), row("compute"));
   }
 
   /** The button that plays what the page shows, and the choice to do so at once. */
@@ -95,10 +108,10 @@ class DevicePanel {
     if (performance.now() - this.#shown_ms < SHOW_MS && playing === this.#playing && !ended) return;
     this.#shown_ms = performance.now();
     this.#playing = playing;
-    const latency = ({ p50, p99, p99_9, max }) => texts.device.percentiles(p50, p99, p99_9, max);
-    this.#show({ playing, missed: texts.device.count(missed), lost: texts.device.count(this.#feed.lost),
-      wakeup: latency(wakeup_us), compute: latency(compute_us) });
-    this.#jitter.element.setAttribute("aria-label", texts.device.jitter_label(latency(wakeup_us)));
+    this.#show({ playing, missed: texts.device.count(missed), lost: texts.device.count(this.#feed.lost) });
+    for (const [key, us] of Object.entries({ wakeup: wakeup_us, compute: compute_us })) {
+      LATENCIES.forEach((share, n) => (this.#values[key][n].textContent = texts.device.us(us[share])));
+    }
     this.#jitter.draw();
   }
 

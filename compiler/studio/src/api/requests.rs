@@ -53,7 +53,7 @@ struct One {
     texture: String,
 }
 
-/// What an address that makes a texture does with the bytes of a request.
+/// How an address answers the bytes of a request with a texture.
 pub(super) type Make = fn(&Studio, &[u8]) -> Result<Arc<Texture>, ApiError>;
 
 /// Such an address, by its path.

@@ -33,7 +33,7 @@ pub struct Percentiles {
     pub max: f64,
 }
 
-/// What the page is told.
+/// News for the page.
 #[derive(Serialize)]
 struct News<'a> {
     /// What to ask for next.

@@ -47,7 +47,7 @@ pub struct Wanted {
     pub asset: Arc<[u8]>,
 }
 
-/// What the page is told of a device before anything else.
+/// What the page knows of a device before anything else.
 #[derive(Serialize)]
 pub(crate) struct Description<'a> {
     name: &'a str,

@@ -1,6 +1,6 @@
 //! Sessions in files: every sample, every force, and the conditions that reproduce them.
 //!
-//! `docs/recording-format.md` specifies the bytes. A servo thread hands an [`Entry`] a tick to a
+//! `formats/RECORDING.md` specifies the bytes. A servo thread hands an [`Entry`] a tick to a
 //! [`Recorder`], which never waits; [`FromServo`] turns what a servo loop sends to another thread
 //! into entries. The file is written in blocks with a checksum each, so that one that was cut is
 //! readable up to its last whole block. [`SessionLog`] reads one, [`csv`] exports it, and

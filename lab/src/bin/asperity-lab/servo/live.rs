@@ -18,7 +18,7 @@ use crate::error::Plain;
 /// Significant digits of latencies.
 const DIGITS: u8 = 3;
 
-/// What the studio is told of a loop.
+/// What the studio shows of a loop.
 pub(super) struct Live {
     device: LiveDevice,
     /// Ticks since they were handed over last.
