@@ -48,6 +48,7 @@ try {
   assert(true, "the plots show its ticks");
 
   // Without networks, textures come from the library.
+  assert(await page.isDisabled("#prompt"), "no prompt is asked for where none is compiled");
   const other = page.locator(".cells [role=option]").filter({ hasNotText: first }).first();
   const name = (await other.locator(".called").textContent()).trim();
   await other.click();

@@ -40,6 +40,13 @@ export class Prompt {
     find("prompt-form").setAttribute("aria-busy", String(busy));
   }
 
+  /** The server compiles no prompts. */
+  withdraw() {
+    for (const id of ["prompt", "compile"]) find(id).disabled = true;
+    find("prompt-hint").textContent = texts.prompt.none;
+    find("invitation").replaceChildren(element("p", {}, texts.prompt.none));
+  }
+
   /** The prompt compiled. */
   accept(prompt) {
     this.refuse(null);

@@ -30,6 +30,7 @@ export const texts = {
     hint: "↑ brings earlier prompts",
     suggestions: "Known materials and qualities",
     suggested: (count) => (count === 1 ? "1 suggestion" : `${count} suggestions`),
+    none: "This server compiles no prompts: pick a texture in the gallery, or open a file.",
     empty: "Describe a surface first, such as “wet ice”.",
     compiled: (name, certainty) => `Compiled “${name}”. ${certainty}`,
     examples: ["rough abrasive sheet with gritty particles", "wet ice", "cork board", "soft velvet", "brushed steel, slightly waxy"],

@@ -46,6 +46,7 @@ export function startTexturePanels({ state, loader }) {
   state.on(["about"], ({ about }) => {
     if (!about) return;
     prompt.words = about.words;
+    if (!about.prompts) prompt.withdraw();
     find("edition").textContent = texts.edition(about.version, about.library);
   });
   state.on(["texture"], ({ texture }) => {
