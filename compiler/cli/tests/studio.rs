@@ -163,7 +163,10 @@ fn a_folder_of_assets_is_named_on_the_page() {
     good(folder, &["builtin", "-o", "mine/grit.asp"]);
     let studio = Running::start(folder, &["mine"]);
     let about: Value = serde_json::from_slice(&studio.ask("GET api/about", "")).expect("JSON");
-    assert_eq!(about["library"], json!({ "name": "mine", "textures": 1 }));
+    assert_eq!(
+        about["library"],
+        json!({ "id": "0", "name": "mine", "textures": 1 })
+    );
     assert_eq!(about["folder"], "mine");
     assert!(text(&studio.ask("GET index.html", "")).starts_with("<!doctype html>"));
 }
