@@ -6,11 +6,11 @@
 // path of the command, the worklet's ticks are compared with those of `asperity render`, and files that the page
 // gives, and textures of its gallery, with those of the command. STUDIO_PICTURES is a folder that takes
 // screenshots.
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
-import { createRequire } from "node:module";
+import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
+import { join } from "node:path";
 import { clean } from "./aid.mjs";
+import { assert, axe, chromium, count } from "./chromium.mjs";
 import { files } from "./files.mjs";
 import { gallery } from "./gallery.mjs";
 import { output } from "./output.mjs";
@@ -26,16 +26,6 @@ const TICK_HZ = 16000;
 const PX_MM = 5;
 
 const [address, executablePath] = process.argv.slice(2);
-const need = createRequire(join(resolve(process.env.STUDIO_MODULES ?? "node_modules"), "/"));
-const { chromium } = need("playwright-core");
-const axe = readFileSync(need.resolve("axe-core/axe.min.js"), "utf8");
-
-let count = 0;
-function assert(holds, text) {
-  if (!holds) throw new Error(`does not hold: ${text}`);
-  count++;
-  console.log(`  ${text}`);
-}
 const near = (x, wanted, share) => Math.abs(x - wanted) <= share * wanted;
 
 async function prompts(visit) {

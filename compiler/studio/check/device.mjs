@@ -4,23 +4,11 @@
 //
 // ADDRESS is that which `asperity-lab servo LIBRARY --texture NAME --device sim: --studio` prints, PID its process,
 // which is ended. The library has at least two textures.
-import { readFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { join, resolve } from "node:path";
 import { clean } from "./aid.mjs";
+import { assert, axe, chromium, count } from "./chromium.mjs";
 import { Visit } from "./visit.mjs";
 
 const [address, executablePath, process_id] = process.argv.slice(2);
-const need = createRequire(join(resolve(process.env.STUDIO_MODULES ?? "node_modules"), "/"));
-const { chromium } = need("playwright-core");
-const axe = readFileSync(need.resolve("axe-core/axe.min.js"), "utf8");
-
-let count = 0;
-function assert(holds, text) {
-  if (!holds) throw new Error(`does not hold: ${text}`);
-  count++;
-  console.log(`  ${text}`);
-}
 
 const began = Date.now();
 const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });

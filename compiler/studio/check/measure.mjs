@@ -4,8 +4,7 @@
 //
 // ADDRESS is that of a running studio. Underruns are what the browser counts as such, where it does, and the time by which
 // the clock of the sound falls behind that of the page.
-import { createRequire } from "node:module";
-import { join, resolve } from "node:path";
+import { chromium } from "./chromium.mjs";
 import { Visit } from "./visit.mjs";
 
 const PROMPT = "rough abrasive sheet with gritty particles";
@@ -13,8 +12,6 @@ const PROMPT = "rough abrasive sheet with gritty particles";
 const LONG_MS = 50;
 
 const [address, executablePath, seconds = "60"] = process.argv.slice(2);
-const need = createRequire(join(resolve(process.env.STUDIO_MODULES ?? "node_modules"), "/"));
-const { chromium } = need("playwright-core");
 
 const browser = await chromium.launch({ executablePath, args: ["--autoplay-policy=no-user-gesture-required", "--no-sandbox"] });
 const visit = await Visit.begin(browser, address);

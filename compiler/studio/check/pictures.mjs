@@ -3,13 +3,11 @@
 //   STUDIO_MODULES=…/node_modules node pictures.mjs ADDRESS CHROMIUM FOLDER
 //
 // ADDRESS is that of a running studio. Each picture comes in light and dark: `studio-desk` and `studio-plots`.
-import { createRequire } from "node:module";
-import { join, resolve } from "node:path";
+import { join } from "node:path";
+import { chromium } from "./chromium.mjs";
 
 const PROMPT = "rough abrasive sheet with gritty particles";
 const [address, executablePath, folder] = process.argv.slice(2);
-const need = createRequire(join(resolve(process.env.STUDIO_MODULES ?? "node_modules"), "/"));
-const { chromium } = need("playwright-core");
 
 const browser = await chromium.launch({ executablePath, args: ["--autoplay-policy=no-user-gesture-required"] });
 for (const colorScheme of ["light", "dark"]) {

@@ -4,6 +4,7 @@ use asperity_io::diagnostic::Diagnostic;
 use std::{
     env, io,
     process::{Command, ExitStatus, Stdio},
+    thread,
 };
 use thiserror::Error;
 
@@ -34,9 +35,25 @@ impl Diagnostic for BrowserError {
     }
 }
 
+/// Opens an address in the user's browser where that can be seen. It does so on a thread, for it may last as long as the
+/// browser does; `failed` is called there.
+pub fn show(url: &str, failed: impl FnOnce(BrowserError) + Send + 'static) {
+    if !has_display() {
+        return;
+    }
+    let url = url.to_owned();
+    // Where no thread can be started, the printed address is left.
+    let _ = thread::Builder::new()
+        .name("browser".into())
+        .spawn(move || {
+            if let Err(error) = open(&url) {
+                failed(error);
+            }
+        });
+}
+
 /// Whether a browser has a place to be seen: on Linux and other Unix systems a display, elsewhere always.
-#[must_use]
-pub fn has_display() -> bool {
+fn has_display() -> bool {
     let set = |name: &str| env::var_os(name).is_some_and(|value| !value.is_empty());
     cfg!(any(windows, target_os = "macos")) || set("DISPLAY") || set("WAYLAND_DISPLAY")
 }
@@ -45,7 +62,7 @@ pub fn has_display() -> bool {
 ///
 /// # Errors
 /// [`BrowserError`] where that program is missing or fails.
-pub fn open_in_browser(url: &str) -> Result<(), BrowserError> {
+fn open(url: &str) -> Result<(), BrowserError> {
     let (program, before): (&str, &[&str]) = if cfg!(windows) {
         // The empty text is the title of a window.
         ("cmd", &["/c", "start", ""])

@@ -58,7 +58,7 @@ mod token;
 mod turns;
 mod worklet_asset;
 
-pub use browser::{BrowserError, has_display, open_in_browser};
+pub use browser::{BrowserError, show};
 pub use collection::{Collection, CollectionError};
 pub use device::{LiveDevice, LiveStatus, LiveTick, Percentiles, Wanted};
 pub use prompts::LoadPrompts;

@@ -31,7 +31,7 @@ pub(crate) const FILES: &[File] = files! {
         "readout.js" "recorder.js" "save.js" "server.js" "sound-panel.js" "sound.js" "state.js" "studio.js" "suggest.js" "surface.js"
         "texts.js" "texture-panels.js" "theme.js" "view.js" "worklet.js"
         "device/feed.js" "device/jitter.js" "device/panel.js"
-        "files/files.js" "files/in.js" "files/kinds.js" "files/out.js" "files/session.js"
+        "files/files.js" "files/in.js" "files/kinds.js" "files/out.js" "files/pack.js"
         "gallery/attributes.js" "gallery/compare.js" "gallery/filters.js" "gallery/gallery.js" "gallery/grid.js"
         "gallery/hand-button.js" "gallery/library.js" "gallery/scatter.js" "gallery/span.js" "gallery/thumbnails.js" "gallery/views.js"
         "output/chain.js" "output/equaliser-panel.js" "output/equaliser.js" "output/modes.js" "output/motors-panel.js"

@@ -6,7 +6,7 @@ import { save } from "../save.js";
 import { Refusal, Silence } from "../server.js";
 import { texts } from "../texts.js";
 import { fileName, kindsOf } from "./kinds.js";
-import { Session } from "./session.js";
+import { Pack } from "./pack.js";
 
 const COLUMNS = [["own", "see", "hear"], ["tools", "code"]];
 
@@ -18,11 +18,11 @@ export class Out {
     this.#server = server;
     this.title = element("span", { class: "file" });
     this.kinds = element("div", { class: "kinds" });
-    const session = new Session({ server, loader });
+    const pack = new Pack({ server, loader });
     find("take").append(
       element("div", { class: "row" }, element("h2", { id: "take-title" }, texts.files.take), this.title,
         element("button", { type: "button", class: "quiet", popovertarget: "take", popovertargetaction: "hide" }, texts.files.close)),
-      this.kinds, session.element);
+      this.kinds, pack.element);
     state.on(["texture", "about"], ({ texture, about }) => this.#show(texture, about));
   }
 

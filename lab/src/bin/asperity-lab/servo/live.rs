@@ -7,8 +7,7 @@ use asperity_host::servo::{Record, Stage};
 use asperity_io::diagnostic::{Failures, one, texts};
 use asperity_lab::servo_session::Surface;
 use asperity_studio::{
-    Collection, Limits, LiveDevice, LiveStatus, LiveTick, Percentiles, Server, Studio, Wanted,
-    has_display, open_in_browser,
+    Collection, Limits, LiveDevice, LiveStatus, LiveTick, Percentiles, Server, Studio, Wanted, show,
 };
 use hdrhistogram::Histogram;
 
@@ -59,15 +58,11 @@ impl Live {
                 "end other programs, or leave out --studio",
             )
         })?;
-        if !arguments.no_open && has_display() {
-            let _ = thread::Builder::new()
-                .name("browser".into())
-                .spawn(move || {
-                    if let Err(error) = open_in_browser(&url) {
-                        let (cause, remedy) = texts(&error);
-                        console.warn(&format!("{cause}; {remedy}"));
-                    }
-                });
+        if !arguments.no_open {
+            show(&url, move |error| {
+                let (cause, remedy) = texts(&error);
+                console.warn(&format!("{cause}; {remedy}"));
+            });
         }
         // These bounds are those that the type allows with so many digits.
         let histogram = || Histogram::new(DIGITS).unwrap_or_else(|_| unreachable!("3 digits"));

@@ -23,7 +23,7 @@ export function distinct(name, taken) {
   }
 }
 
-export class Session {
+export class Pack {
   #server;
   /** By the texture's name on the server: { texture, box, input }. */
   #entries = new Map();
