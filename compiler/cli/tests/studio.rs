@@ -162,13 +162,42 @@ fn a_folder_of_assets_is_named_on_the_page() {
     fs::create_dir(folder.join("mine")).expect("a folder");
     good(folder, &["builtin", "-o", "mine/grit.asp"]);
     let studio = Running::start(folder, &["mine"]);
-    let about: Value = serde_json::from_slice(&studio.ask("GET api/about", "")).expect("JSON");
+    let about: Value = serde_json::from_slice(&studio.ask("GET api/about.json", "")).expect("JSON");
     assert_eq!(
         about["library"],
         json!({ "id": "0", "name": "mine", "textures": 1 })
     );
     assert_eq!(about["folder"], "mine");
     assert!(text(&studio.ask("GET index.html", "")).starts_with("<!doctype html>"));
+}
+
+#[test]
+fn the_page_of_a_library_is_written_once_and_replaces_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    fs::create_dir(folder.join("mine")).expect("a folder");
+    good(folder, &["builtin", "-o", "mine/grit.asp"]);
+    let said = good(folder, &["studio", "mine", "--export", "page"]);
+    assert!(said.starts_with("page: 1 texture in "), "{said}");
+    assert!(said.contains("http.server"), "{said}");
+    assert_eq!(entries(folder), ["mine", "page"]);
+    assert!(entries(&folder.join("page")).contains(&"index.html".to_owned()));
+    for to in ["page", "mine"] {
+        let before = entries(&folder.join(to));
+        refused(
+            folder,
+            &["studio", "mine", "--export", to],
+            &[to, "remove what is in this one"],
+        );
+        assert_eq!(entries(&folder.join(to)), before);
+    }
+    for wrong in [
+        &["studio", "--export", "new"][..],
+        &["studio", "mine", "--export", "new", "--no-open"],
+    ] {
+        assert_eq!(asperity(folder, wrong).status.code(), Some(2), "{wrong:?}");
+    }
+    assert_eq!(entries(folder), ["mine", "page"]);
 }
 
 #[cfg(unix)]

@@ -91,7 +91,7 @@ export class Loader {
       if (!this.#parts.state.get("about")) this.begin();
     } catch (error) {
       if (error.name === "AbortError") return;
-      if (error instanceof Silence) return this.#wait(action, how);
+      if (error instanceof Silence) return this.#wait(action, how, error);
       this.#parts.state.set({ busy: false });
       withdraw("server");
       if (!(error instanceof Refusal)) throw error;
@@ -99,10 +99,10 @@ export class Loader {
     }
   }
 
-  #wait(action, how) {
+  #wait(action, how, { message, help }) {
     const again = () => this.#attempt(action, how);
     const button = { label: texts.server.retry, run: again };
-    notify("server", { text: texts.server.gone, help: texts.server.gone_help, action: button });
+    notify("server", { text: message, help, action: button });
     this.#timer = setTimeout(again, RETRY_MS);
   }
 }

@@ -1,5 +1,4 @@
-// Where textures come from. The page uses these methods only, so that a static export can give an
-// object with the same ones instead.
+// Where textures come from: the studio's server, or the files that its export wrote, which have the same addresses.
 
 import { texts } from "./texts.js";
 
@@ -12,17 +11,21 @@ export class Refusal extends Error {
 }
 
 /** The server did not answer. */
-export class Silence extends Error {}
+export class Silence extends Refusal {}
 
 export class Server {
   #base;
+  /** Static files, which any web server may give. */
+  #exported = false;
 
   constructor(base = document.baseURI) {
     this.#base = base;
   }
 
-  about(signal) {
-    return this.#json("api/about", { signal });
+  async about(signal) {
+    const about = await this.#json("api/about.json", { signal });
+    this.#exported = about.exported;
+    return about;
   }
 
   compile({ prompt, seed = 0 }, signal) {
@@ -62,12 +65,13 @@ export class Server {
 
   /** The texture at a place in a library. */
   pick(library, index, signal) {
-    return this.#post(`api/library/${library.id}/${index}`, {}, signal);
+    return this.#json(`api/library/${library.id}/${index}.json`, { signal });
   }
 
   /** The address of its picture, for an image. */
   thumbnail(library, index) {
-    return new URL(`api/library/${library.id}/${index}.png`, this.#base).href;
+    const { id, textures } = library;
+    return textures ? this.portrait({ id: textures[index] }) : new URL(`api/library/${id}/${index}.png`, this.#base).href;
   }
 
   /** What `asperity diff --json` prints of two libraries. */
@@ -147,11 +151,13 @@ export class Server {
       response = await fetch(new URL(path, this.#base), options);
     } catch (error) {
       if (error.name === "AbortError") throw error;
-      throw new Silence(texts.server.gone);
+      const { gone, gone_help } = this.#exported ? texts.exported : texts.server;
+      throw new Silence(gone, gone_help);
     }
     if (response.ok) return response;
     const { error, help } = await response.json().catch(() => ({}));
     if (error) throw new Refusal(error, help);
+    if (this.#exported) throw new Refusal(texts.exported.missing(path), texts.exported.missing_help);
     // Without the token there is no text.
     if (response.status === 404) throw new Refusal(texts.server.other_run, texts.server.other_run_help);
     throw new Refusal(texts.server.unreadable, texts.server.unreadable_help);

@@ -18,6 +18,7 @@ import { texts } from "./texts.js";
 import { startTexturePanels } from "./texture-panels.js";
 import { startTheme } from "./theme.js";
 
+find("unstarted").remove();
 const server = new Server();
 const state = new State({ about: null, texture: null, busy: false, draft: false });
 const broken = () => notify("broken", { text: texts.broken, help: texts.broken_help });
@@ -35,6 +36,10 @@ startTexturePanels({ state, loader });
 startSteering({ server, state, loader, sound });
 const gallery = startGallery({ server, state, loader });
 startFiles({ server, state, loader, gallery });
+// Static files show textures and make none.
+state.on(["about"], ({ about }) => {
+  if (about) document.documentElement.dataset.served = about.opens ? "server" : "files";
+});
 let plots = mountPlots(find("plots"), texts.plots);
 const hearTicks = (ticks) => plots.addTicks(ticks);
 sound.onticks.push(hearTicks);

@@ -229,8 +229,8 @@ export const texts = {
     no_device_help: "Connect one, or check the system’s sound settings, then start again.",
     wrong_rate: (hz) => `This browser plays at ${number(hz, 0)} Hz only; the renderer needs 48,000 Hz.`,
     wrong_rate_help: "Use a current Chromium, Firefox or Safari.",
-    no_worklet: "This browser has no AudioWorklet.",
-    no_worklet_help: "Open the page by the address that the terminal printed, in a current Chromium, Firefox or Safari.",
+    no_worklet: "This browser renders no sound for this page.",
+    no_worklet_help: "Open the page over HTTPS or from this machine (127.0.0.1), in a current Chromium, Firefox or Safari.",
     restart: "Restart sound",
     refused: (status) => `The renderer refused this texture (${status}).`,
     refused_help: "Compile it again. If that does not help, please report the command shown under the surface.",
@@ -315,6 +315,13 @@ export const texts = {
     other_run_help: "Open the address that “asperity studio” printed last.",
     unreadable: "The server’s answer could not be read.",
     unreadable_help: "Page and program may be of different versions: reload the page.",
+  },
+
+  exported: {
+    gone: "The web server of this page does not answer. What is loaded keeps playing.",
+    gone_help: "Check the connection. This page tries again every three seconds.",
+    missing: (path) => `The file ${path} of this page is missing.`,
+    missing_help: "Copy the folder that “asperity studio --export” wrote to the web server again, all of it.",
   },
 
   gallery: {

@@ -2,6 +2,7 @@
 
 use crate::{
     device::{Description, LiveDevice},
+    export::OFFERED,
     prompts::Prompts,
     shelf::Named,
 };
@@ -16,6 +17,10 @@ use serde::Serialize;
 #[derive(Serialize)]
 struct About<'a> {
     version: &'a str,
+    /// Whether the page is static files, without a server.
+    exported: bool,
+    /// Whether files are opened, and libraries packed.
+    opens: bool,
     /// Whether prompts are compiled, and textures edited.
     prompts: bool,
     library: Option<Library<'a>>,
@@ -23,6 +28,8 @@ struct About<'a> {
     words: Vec<&'static str>,
     sliders: Vec<Slider>,
     exports: Vec<Export>,
+    /// Endings of the files of a texture that can be had; all where this is null.
+    files: Option<&'a [&'a str]>,
     device: Option<Description<'a>>,
 }
 
@@ -69,26 +76,42 @@ struct Export {
     file_ending: &'static str,
 }
 
+/// From where the page comes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Served {
+    /// From a server that answers.
+    Live,
+    /// From static files.
+    Exported,
+}
+
 /// What the server is, JSON. It waits for the networks where there are any.
 pub(crate) fn about(
     prompts: &Prompts,
     start: Option<&Named>,
     device: Option<&LiveDevice>,
+    served: Served,
 ) -> Vec<u8> {
     let about = About {
         version: env!("CARGO_PKG_VERSION"),
+        exported: served == Served::Exported,
+        opens: served == Served::Live,
         prompts: prompts.exist(),
         library: start.map(Library::of),
         folder: start
             .and_then(|named| named.library.folder())
             .map(|folder| folder.display().to_string()),
-        words: suggestions(),
+        words: match prompts.exist() {
+            true => suggestions(),
+            false => Vec::new(),
+        },
         // Those of a compiler that cannot be loaded are missed by nobody.
         sliders: prompts
             .get()
             .map(|loaded| AXES.map(|axis| slider(axis, &loaded.scale)).into())
             .unwrap_or_default(),
         exports: exports(),
+        files: (served == Served::Exported).then_some(&OFFERED),
         device: device.map(LiveDevice::description),
     };
     // Plain structures of numbers and strings always serialise.

@@ -37,6 +37,8 @@ pub struct Collection {
     /// What tells it from others of its name.
     id: String,
     place: Place,
+    /// Where it lies is of no interest to those who see it.
+    elsewhere: bool,
     rows: Vec<Row>,
     columns: OnceLock<Arc<[u8]>>,
     thumbnails: Thumbnails,
@@ -112,6 +114,7 @@ impl Collection {
             name: name(textures.path()),
             id,
             place: Place::Library(Mutex::new(textures)),
+            elsewhere: false,
             rows,
             columns: OnceLock::new(),
             thumbnails: Thumbnails::default(),
@@ -167,6 +170,7 @@ impl Collection {
                 path: path.to_owned(),
                 files,
             },
+            elsewhere: false,
             rows,
             columns: OnceLock::new(),
             thumbnails: Thumbnails::default(),
@@ -185,12 +189,20 @@ impl Collection {
         self.rows.len()
     }
 
-    /// The folder, if it is one.
+    /// The same for people on other machines, to whom commands name files without their folders.
+    pub(crate) fn elsewhere(self) -> Self {
+        Self {
+            elsewhere: true,
+            ..self
+        }
+    }
+
+    /// The folder, if it is one that people can reach.
     #[must_use]
     pub fn folder(&self) -> Option<&Path> {
         match &self.place {
-            Place::Folder { path, .. } => Some(path),
-            Place::Library(_) => None,
+            Place::Folder { path, .. } if !self.elsewhere => Some(path),
+            _ => None,
         }
     }
 
@@ -198,8 +210,13 @@ impl Collection {
     pub(crate) fn columns(&self, id: &str) -> Arc<[u8]> {
         let written = self
             .columns
-            .get_or_init(|| columns(id, &self.name, &self.rows).into());
+            .get_or_init(|| columns(id, &self.name, &self.rows, None).into());
         Arc::clone(written)
+    }
+
+    /// The same with what names each texture, `ids`.
+    pub(crate) fn columns_with(&self, id: &str, ids: &[String]) -> Vec<u8> {
+        columns(id, &self.name, &self.rows, Some(ids))
     }
 
     /// The names of its textures, in their order.
@@ -239,18 +256,22 @@ impl Collection {
             // The name in the index counts.
             bytes = renamed(&bytes, name).map_err(|e| refused(&LowerError::from(e)))?;
         }
+        let shown = |path: &Path| match self.elsewhere {
+            true => self::name(path),
+            false => path.to_string_lossy().into_owned(),
+        };
         let what = |id: &str| match &self.place {
             Place::Library(textures) => {
                 let textures = textures.lock().unwrap_or_else(PoisonError::into_inner);
                 let library = Opened {
-                    path: textures.path().to_string_lossy().into_owned(),
+                    path: shown(textures.path()),
                     id: self.id.clone(),
                 };
                 let texture = name.clone();
                 What::Extract { library, texture }
             }
             Place::Folder { files, .. } => What::File(Opened {
-                path: files[at].to_string_lossy().into_owned(),
+                path: shown(&files[at]),
                 id: id.to_owned(),
             }),
         };

@@ -49,9 +49,12 @@ pub(crate) const FILES: &[File] = files! {
     "image/svg+xml": "icon.svg";
 };
 
+/// The page itself.
+pub(crate) const INDEX: &str = "index.html";
+
 /// The file of this name; the empty name is the page itself.
 pub(crate) fn file(name: &str) -> Option<&'static File> {
-    let name = if name.is_empty() { "index.html" } else { name };
+    let name = if name.is_empty() { INDEX } else { name };
     FILES.iter().find(|file| file.name == name)
 }
 

@@ -26,6 +26,8 @@ pub(crate) struct Row {
 struct Columns<'a> {
     id: &'a str,
     name: &'a str,
+    /// What names each texture, where that is known: `api/texture/ID.png` is its picture then.
+    textures: Option<&'a [String]>,
     names: Vec<&'a str>,
     prompts: Vec<Option<&'a str>>,
     rough_db: Vec<Option<f64>>,
@@ -51,10 +53,11 @@ impl Row {
 }
 
 /// The columns of a library, JSON.
-pub(crate) fn columns(id: &str, name: &str, rows: &[Row]) -> Vec<u8> {
+pub(crate) fn columns(id: &str, name: &str, rows: &[Row], ids: Option<&[String]>) -> Vec<u8> {
     let columns = Columns {
         id,
         name,
+        textures: ids,
         names: rows.iter().map(|row| &*row.name).collect(),
         prompts: rows.iter().map(|row| row.prompt.as_deref()).collect(),
         rough_db: rows.iter().map(|row| row.attributes.rough_db).collect(),

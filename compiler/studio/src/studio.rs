@@ -1,7 +1,7 @@
 //! What the server knows: networks, what it was started with, the last textures.
 
 use crate::{
-    about,
+    about::{self, Served},
     collection::Collection,
     device::LiveDevice,
     error::ApiError,
@@ -70,9 +70,20 @@ impl Studio {
     pub(crate) fn about(&self) -> Vec<u8> {
         about::about(
             &self.prompts,
-            self.shelf.start().as_ref(),
+            self.start().as_ref(),
             self.device.as_ref(),
+            Served::Live,
         )
+    }
+
+    /// What the page is without a server, JSON.
+    pub(crate) fn about_exported(&self) -> Vec<u8> {
+        about::about(&self.prompts, self.start().as_ref(), None, Served::Exported)
+    }
+
+    /// The library that it was started with.
+    pub(crate) fn start(&self) -> Option<Named> {
+        self.shelf.start()
     }
 
     /// Compiles a prompt, and keeps the texture.

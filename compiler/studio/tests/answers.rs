@@ -27,7 +27,7 @@ fn every_answer_has_the_headers_that_bind_the_page() {
         ("worklet.js", "text/javascript; charset=utf-8"),
         ("icon.svg", "image/svg+xml"),
         ("asperity.wasm", "application/wasm"),
-        ("api/about", "application/json"),
+        ("api/about.json", "application/json"),
         ("none", "application/json"),
     ] {
         let reply = site.get(path);
@@ -209,7 +209,7 @@ fn a_library_and_a_folder_are_checked_and_named() {
     for (path, is_folder) in [("two.aspl", false), ("assets", true)] {
         let collection = Collection::open(&at(path)).unwrap_or_else(|_| panic!("{path}"));
         let site = Site::start(Some(collection), Limits::default());
-        let about = site.get("api/about").json();
+        let about = site.get("api/about.json").json();
         assert_eq!(
             about["library"],
             serde_json::json!({ "id": "0", "name": path, "textures": 2 })

@@ -98,7 +98,7 @@ fn requests_of_strangers_are_refused_and_learn_nothing() {
         ),
         stranger("no token", 404, get("/", &own)),
         stranger("no token, a file", 404, get("/worklet.js", &own)),
-        stranger("no token, the interface", 404, get("/api/about", &own)),
+        stranger("no token, the interface", 404, get("/api/about.json", &own)),
         stranger("another token", 404, get(&wrong_token, &own)),
         stranger(
             "a part of the token",
@@ -231,7 +231,7 @@ fn methods_that_an_address_does_not_answer_are_named() {
     for (method, path, allowed) in [
         ("POST", "", "GET, HEAD"),
         ("DELETE", "worklet.js", "GET, HEAD"),
-        ("PUT", "api/about", "GET, HEAD"),
+        ("PUT", "api/about.json", "GET, HEAD"),
         ("GET", "api/compile", "POST"),
         ("GET", "api/edit", "POST"),
         ("PUT", "api/blend", "POST"),

@@ -38,7 +38,7 @@ fn a_page_follows_the_loop_and_a_slow_one_loses_ticks_not_the_loop() {
     let device = LiveDevice::new("sim", 250, true);
     let site = site(&device);
     assert_eq!(
-        site.get("api/about").json()["device"],
+        site.get("api/about.json").json()["device"],
         json!({ "name": "sim", "rate_hz": 250, "swaps": true })
     );
     let status = LiveStatus {
@@ -130,5 +130,5 @@ fn what_a_device_cannot_do_is_said() {
     assert_eq!(refused.status, 422);
     // And where no device is.
     assert_eq!(SHARED.get("api/device/ticks").status, 404);
-    assert_eq!(SHARED.get("api/about").json()["device"], Value::Null);
+    assert_eq!(SHARED.get("api/about.json").json()["device"], Value::Null);
 }

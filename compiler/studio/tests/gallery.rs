@@ -13,10 +13,10 @@ use asperity_studio::{Collection, Limits};
 use serde_json::{Value, json};
 use std::{fs, path::Path};
 
-const NAMES: [&str; 3] = ["-dash", "cork", "wet ice"];
+pub(crate) const NAMES: [&str; 3] = ["-dash", "cork", "wet ice"];
 
 /// Three textures that differ, the second with a picture.
-fn textures() -> Vec<Vec<u8>> {
+pub(crate) fn textures() -> Vec<Vec<u8>> {
     let one = |(n, name): (usize, &&str)| {
         let mut texture = builtin::texture();
         texture.friction.mu = 0.2 + 0.1 * n as f64;
@@ -30,7 +30,7 @@ fn textures() -> Vec<Vec<u8>> {
     NAMES.iter().enumerate().map(one).collect()
 }
 
-fn packed(textures: &[Vec<u8>]) -> Vec<u8> {
+pub(crate) fn packed(textures: &[Vec<u8>]) -> Vec<u8> {
     let named: Vec<_> = NAMES
         .iter()
         .zip(textures)
@@ -39,12 +39,12 @@ fn packed(textures: &[Vec<u8>]) -> Vec<u8> {
     encode(&named).expect("a library")
 }
 
-fn started(path: &Path) -> Site {
+pub(crate) fn started(path: &Path) -> Site {
     let collection = Collection::open(path).unwrap_or_else(|_| panic!("{}", path.display()));
     Site::start(Some(collection), Limits::default())
 }
 
-fn stop(site: Site) {
+pub(crate) fn stop(site: Site) {
     site.stopper.stop();
     site.thread.join().expect("it ends");
 }
@@ -57,7 +57,7 @@ fn drop_on(site: &Site, name: &str, bytes: &[u8]) -> Value {
 
 fn pick(site: &Site, library: &Value, at: usize) -> Reply {
     let id = library["id"].as_str().expect("a name");
-    site.post(&format!("api/library/{id}/{at}"), b"{}")
+    site.get(&format!("api/library/{id}/{at}.json"))
 }
 
 #[test]
@@ -72,7 +72,7 @@ fn a_library_and_a_folder_are_shown_and_give_their_textures() {
     }
     for path in [&file, &assets] {
         let site = started(path);
-        let library = site.get("api/about").json()["library"].clone();
+        let library = site.get("api/about.json").json()["library"].clone();
         let columns = site.get("api/library/0.json").json();
         assert_eq!(
             (&columns["id"], &columns["name"]),
@@ -207,34 +207,33 @@ fn libraries_and_places_that_are_not_there_are_said_so() {
             "three.aspl: no texture 3",
         ),
         (
-            "POST",
-            format!("api/library/{id}/3"),
-            b"{}",
+            "GET",
+            format!("api/library/{id}/3.json"),
+            b"",
             404,
             "it has 3 textures",
         ),
         (
-            "POST",
-            format!("api/library/{id}/1"),
+            "GET",
+            format!("api/library/{id}/-1.json"),
             b"",
-            400,
-            "not as expected",
-        ),
-        (
-            "POST",
-            format!("api/library/{id}/1"),
-            b"{\"x\": 1}",
-            400,
-            "unknown field",
-        ),
-        (
-            "POST",
-            format!("api/library/{id}/-1"),
-            b"{}",
             404,
             "nothing has this address",
         ),
-        ("GET", format!("api/library/{id}/1"), b"", 405, "POST alone"),
+        (
+            "GET",
+            format!("api/library/{id}/1"),
+            b"",
+            404,
+            "nothing has this address",
+        ),
+        (
+            "POST",
+            format!("api/library/{id}/1.json"),
+            b"{}",
+            405,
+            "GET",
+        ),
         ("POST", format!("api/library/{id}.json"), b"{}", 405, "GET"),
         (
             "GET",

@@ -4,6 +4,7 @@ mod answers;
 mod attacks;
 mod client;
 mod device;
+mod export;
 mod files;
 mod gallery;
 mod hostile_files;

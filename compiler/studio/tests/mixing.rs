@@ -197,7 +197,7 @@ fn blends_compositions_and_encodings_have_the_bytes_of_the_commands() {
 
 #[test]
 fn the_page_learns_the_scale_of_the_sliders_and_the_exports() {
-    let about = SHARED.get("api/about").json();
+    let about = SHARED.get("api/about.json").json();
     assert_eq!(about["prompts"], true);
     let editor = LatentEditor::new(&PROMPTS);
     for (axis, slider) in AXES

@@ -137,7 +137,7 @@ fn requests_that_are_wrong_are_refused_with_their_field() {
 #[test]
 fn a_server_without_prompts_shows_textures_and_makes_none() {
     let site = Site::of(Studio::new(None, None), Limits::default());
-    let about = site.get("api/about").json();
+    let about = site.get("api/about.json").json();
     assert_eq!(
         (&about["prompts"], &about["sliders"]),
         (&json!(false), &json!([]))

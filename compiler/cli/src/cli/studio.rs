@@ -9,10 +9,14 @@ use std::path::PathBuf;
 only under that address, which holds a secret: whoever has it can use the studio until it ends. Prompts are compiled as \
 `asperity compile` does, to the same bytes. Ctrl-C ends it.
 
+With --export, the page of a library becomes static files for any web server: to see, hear and stroke its textures without \
+Asperity. Browsers play sound only for pages that come over HTTPS or from the same machine.
+
 Examples:
   asperity studio
   asperity studio hatt.aspl
-  asperity studio textures/ --port 8016 --no-open"
+  asperity studio textures/ --port 8016 --no-open
+  asperity studio hatt.aspl --export page"
 )]
 pub(crate) struct Studio {
     /// A library (.aspl), or a folder of assets (.asp), to have at hand
@@ -24,4 +28,7 @@ pub(crate) struct Studio {
     /// Only print the address, and open no browser
     #[arg(long)]
     pub(crate) no_open: bool,
+    /// Write the page of the library as static files into this folder, new or empty, and serve nothing
+    #[arg(long, value_name = "DIR", requires = "collection", conflicts_with_all = ["port", "no_open"])]
+    pub(crate) export: Option<PathBuf>,
 }

@@ -28,10 +28,10 @@ use asperity::effects::Kind;
 use asperity_console::{Console, clean_up_on_interrupt};
 use asperity_io::diagnostic::{Failures, one};
 
-/// Prepares for an interrupt: the studio ends by it with status 0, every other command removes what is unfinished.
+/// Prepares for an interrupt: the studio's server ends by it with status 0, every other command removes what is unfinished.
 pub(crate) fn prepare(cli: &Cli) -> Result<(), Failures> {
     match cli.command {
-        Command::Studio(_) => Ok(()),
+        Command::Studio(ref args) if args.export.is_none() => Ok(()),
         _ => clean_up_on_interrupt().map_err(one),
     }
 }

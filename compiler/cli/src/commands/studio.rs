@@ -3,8 +3,13 @@
 use crate::cli::Studio as Arguments;
 use asperity::{inference::Backend, prompt::PromptCompiler};
 use asperity_console::{Console, on_interrupt};
-use asperity_io::diagnostic::{Failures, one, texts};
-use asperity_studio::{Collection, Limits, Server, Studio, show};
+use asperity_io::{
+    diagnostic::{Failures, one, texts},
+    output::display,
+    shown::{counted, size},
+};
+use asperity_studio::{Collection, Limits, Server, Studio, export, show};
+use std::path::Path;
 
 pub(crate) fn run(args: &Arguments, console: Console) -> Result<(), Failures> {
     let collection = args
@@ -12,6 +17,17 @@ pub(crate) fn run(args: &Arguments, console: Console) -> Result<(), Failures> {
         .as_deref()
         .map(Collection::open)
         .transpose()?;
+    match (&args.export, collection) {
+        (Some(folder), Some(collection)) => write(collection, folder, console),
+        (_, collection) => serve(args, collection, console),
+    }
+}
+
+fn serve(
+    args: &Arguments,
+    collection: Option<Collection>,
+    console: Console,
+) -> Result<(), Failures> {
     let studio = Studio::new(
         collection,
         Some(|| Ok(PromptCompiler::embedded(&Backend::Portable)?)),
@@ -29,4 +45,20 @@ pub(crate) fn run(args: &Arguments, console: Console) -> Result<(), Failures> {
     }
     server.run();
     Ok(())
+}
+
+fn write(collection: Collection, folder: &Path, console: Console) -> Result<(), Failures> {
+    let bar = console.rated_bar(collection.textures(), "textures");
+    let written = export(collection, folder, || bar.inc(1));
+    bar.finish_and_clear();
+    let written = written.map_err(one)?;
+    let report = format!(
+        "{folder}: {textures} in {files}, {size}\nAny web server can serve it; to try it here, run \
+         `python3 -m http.server -b 127.0.0.1 -d {folder} 8000` and open http://127.0.0.1:8000/\n",
+        folder = display(folder),
+        textures = counted(written.textures, "texture", "textures"),
+        files = counted(written.files, "file", "files"),
+        size = size(written.bytes),
+    );
+    console.report(&report).map_err(one)
 }

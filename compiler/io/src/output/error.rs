@@ -28,6 +28,9 @@ impl Diagnostic for OutputError {
             }
             io::ErrorKind::IsADirectory => "give a path for a file, not a folder".into(),
             io::ErrorKind::NotADirectory => "give a folder, not a file".into(),
+            io::ErrorKind::DirectoryNotEmpty => {
+                "give a new folder, or remove what is in this one".into()
+            }
             io::ErrorKind::AlreadyExists => "give another path, or remove it first".into(),
             _ => "check the path and the disk".into(),
         }

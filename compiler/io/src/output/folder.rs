@@ -66,7 +66,8 @@ pub fn write_folder_beside(
     Ok(())
 }
 
-/// A folder that was made for files. It is removed again, if it is empty, unless it is kept.
+/// A folder that was made for files. It is removed again, if it is empty, unless it is kept. Its path has no links, as
+/// those of the files in it, so that an interrupt finds them in order.
 #[derive(Debug)]
 pub struct NewFolder(PathBuf);
 
@@ -88,14 +89,9 @@ impl NewFolder {
             }
             _ => fail("cannot create the folder", e),
         })?;
-        list.insert(folder.to_owned());
-        Ok(Self(folder.to_owned()))
-    }
-
-    /// Where it is.
-    #[must_use]
-    pub fn path(&self) -> &Path {
-        &self.0
+        let path = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
+        list.insert(path.clone());
+        Ok(Self(path))
     }
 
     /// Lets it stay.

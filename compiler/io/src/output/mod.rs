@@ -15,6 +15,7 @@ mod stream;
 #[cfg(test)]
 mod tests;
 mod unfinished;
+mod whole_folder;
 
 pub use atomic::AtomicFile;
 pub use error::{OpenError, OutputError};
@@ -23,6 +24,7 @@ pub use folder::{NewFolder, write_folder, write_folder_beside};
 pub use outputs::{OutputId, Outputs};
 pub use stream::{display, is_standard_output};
 pub use unfinished::clean_up_and_exit;
+pub use whole_folder::WholeFolder;
 
 use std::path::Path;
 

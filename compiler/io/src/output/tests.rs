@@ -1,6 +1,7 @@
 //! What is written, what is kept, and what is refused.
 
 use super::*;
+use crate::diagnostic::Diagnostic as _;
 use std::{
     fs,
     io::{self, Write as _},
@@ -186,4 +187,80 @@ fn a_folder_of_files_takes_no_open_files() {
         assert_eq!(fs::read_to_string(folder.join("299.asp")).unwrap(), content);
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 301);
     }
+}
+
+/// An interrupt removes what is unfinished in the opposite order of paths.
+#[test]
+fn what_is_unfinished_in_a_new_folder_is_listed_below_it() {
+    let here = tempfile::tempdir_in(".").unwrap();
+    let relative = Path::new(here.path().file_name().unwrap()).join("new");
+    let absolute = fs::canonicalize(here.path()).unwrap().join("new");
+    let below = || {
+        let list = unfinished::unfinished();
+        list.iter()
+            .filter(|path| path.starts_with(&absolute))
+            .count()
+    };
+    let filled = WholeFolder::create(&relative).unwrap();
+    filled.write("a/b.txt", b"b").unwrap();
+    assert_eq!(
+        below(),
+        4,
+        "the folder, the hidden one, and what is in that"
+    );
+    drop(filled);
+    assert_eq!(below(), 0);
+    let made = folder::NewFolder::make(&relative).unwrap();
+    let file = AtomicFile::create(&relative.join("c.txt")).unwrap();
+    assert_eq!(below(), 2);
+    drop((file, made));
+    assert_eq!(below(), 0);
+    assert!(!relative.exists());
+}
+
+#[test]
+fn the_files_of_a_whole_folder_appear_together_or_not_at_all() {
+    let (_kept, at) = folder();
+    for (name, stays) in [("sub", true), ("new", false)] {
+        let target = at(name);
+        let filled = WholeFolder::create(&target).unwrap();
+        filled.write("a.txt", b"old").unwrap();
+        filled.write("b/c/d.txt", b"d").unwrap();
+        filled.write("b/e.txt", b"e").unwrap();
+        assert!(!target.join("a.txt").exists(), "{name}");
+        drop(filled);
+        assert_eq!(target.exists(), stays, "{name}: as it was");
+        if stays {
+            assert!(entries(&target).is_empty(), "{name}");
+        }
+
+        let filled = WholeFolder::create(&target).unwrap();
+        filled.write("a.txt", b"old, and longer").unwrap();
+        filled.write("a.txt", b"new").unwrap();
+        filled.write("b/c/d.txt", b"d").unwrap();
+        filled.commit().unwrap();
+        assert_eq!(entries(&target), ["a.txt", "b"], "{name}");
+        assert_eq!(fs::read(target.join("a.txt")).unwrap(), b"new");
+        assert_eq!(fs::read(target.join("b/c/d.txt")).unwrap(), b"d");
+        assert!(
+            !unfinished::unfinished()
+                .iter()
+                .any(|path| path.starts_with(&target))
+        );
+    }
+    for (name, named) in [
+        ("new", "remove what is in this one"),
+        ("in.json", "give a folder"),
+        ("gone/new", "create the folder first"),
+        ("-", "give a folder"),
+    ] {
+        let target = if name == "-" {
+            PathBuf::from("-")
+        } else {
+            at(name)
+        };
+        let error = WholeFolder::create(&target).unwrap_err();
+        assert!(error.remedy().contains(named), "{name}: {error}");
+    }
+    assert_eq!(entries(&at("new")), ["a.txt", "b"], "as it was");
 }

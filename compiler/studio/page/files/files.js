@@ -6,5 +6,5 @@ import { Out } from "./out.js";
 /** `gallery.add(library)` takes a library that was opened. */
 export function startFiles({ server, state, loader, gallery }) {
   new Out({ server, state, loader });
-  new In({ server, loader, gallery });
+  new In({ server, state, loader, gallery });
 }

@@ -2,7 +2,7 @@
 
 import { announce, element, find } from "../dom.js";
 import { notify, withdraw } from "../notices.js";
-import { Refusal, Silence } from "../server.js";
+import { Refusal } from "../server.js";
 import { texts } from "../texts.js";
 
 /** Bytes that the server takes. */
@@ -20,9 +20,11 @@ export class In {
   #queue = [];
   #done = 0;
   #busy = false;
+  #opens = true;
 
   constructor(parts) {
     this.#parts = parts;
+    parts.state.on(["about"], ({ about }) => (this.#opens = about?.opens !== false));
     find("drop").append(element("p", {}, element("strong", {}, texts.files.drop), " ", texts.files.drop_kinds));
     const chooser = find("open-files");
     find("open").addEventListener("click", () => chooser.click());
@@ -66,7 +68,6 @@ export class In {
       return null;
     } catch (error) {
       if (error instanceof DOMException) return { text: texts.files.unread(file.name), help: texts.files.unread_help };
-      if (error instanceof Silence) return { text: texts.files.not_opened(file.name, error.message), help: texts.server.gone_help };
       if (!(error instanceof Refusal)) throw error;
       const named = error.message.includes(file.name);
       return { text: named ? error.message : texts.files.not_opened(file.name, error.message), help: error.help };
@@ -75,7 +76,7 @@ export class In {
 
   #followDrags() {
     const target = find("drop");
-    const brings = ({ dataTransfer }) => dataTransfer?.types.includes("Files");
+    const brings = ({ dataTransfer }) => this.#opens && dataTransfer?.types.includes("Files");
     // Leaving one element for another one within the page is no end.
     let depth = 0;
     const show = (by) => {

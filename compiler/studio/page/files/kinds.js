@@ -13,8 +13,8 @@ const GROUPS = {
 const SUFFIXES = { "normal.png": " normal.png", "height.png": " height.png", "plot.png": " plot.png", "export.wav": " acceleration.wav",
   "export.csv": " acceleration.csv", "listen.wav": ".wav" };
 
-/** { group: [{ ending, suffix, label, purpose }] }; `exports` as in `about`. */
-export function kindsOf(exports) {
+/** { group: [{ ending, suffix, label, purpose }] }, of `about`. */
+export function kindsOf({ exports, files }) {
   const known = new Set(Object.values(GROUPS).flat());
   const offered = new Map(exports.map((entry) => [entry.ending, entry]));
   const kind = (ending) => {
@@ -23,7 +23,7 @@ export function kindsOf(exports) {
   };
   const others = [...offered.keys()].filter((ending) => !known.has(ending));
   return Object.fromEntries(Object.entries({ ...GROUPS, tools: [...GROUPS.tools, ...others] }).map(([group, endings]) =>
-    [group, endings.filter((ending) => !ending.startsWith("export.") || offered.has(ending)).map(kind)]));
+    [group, endings.filter((ending) => files?.includes(ending) ?? (!ending.startsWith("export.") || offered.has(ending))).map(kind)]));
 }
 
 /** The name of such a file: `wet ice.asp` gives `wet ice.png`. */

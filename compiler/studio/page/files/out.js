@@ -3,7 +3,7 @@
 import { announce, element, find } from "../dom.js";
 import { notify, withdraw } from "../notices.js";
 import { save } from "../save.js";
-import { Refusal, Silence } from "../server.js";
+import { Refusal } from "../server.js";
 import { texts } from "../texts.js";
 import { fileName, kindsOf } from "./kinds.js";
 import { Pack } from "./pack.js";
@@ -38,7 +38,7 @@ export class Out {
       element("span", { class: "label" }, kind.label), element("span", { class: "ending" }, kind.suffix.trim()),
       element("span", { class: "purpose" }, kind.purpose)));
     };
-    const groups = kindsOf(about.exports ?? []);
+    const groups = kindsOf(about);
     const section = (group) => element("section", {}, element("h3", {}, texts.files.groups[group]),
       element("ul", {}, ...groups[group].map(button)));
     this.kinds.replaceChildren(...COLUMNS.map((column) => element("div", {},
@@ -53,8 +53,8 @@ export class Out {
       withdraw(`save ${ending}`);
       announce(texts.files.saved(name));
     } catch (error) {
-      if (!(error instanceof Refusal) && !(error instanceof Silence)) throw error;
-      notify(`save ${ending}`, { text: texts.files.not_saved(name, error.message), help: error.help ?? texts.server.gone_help });
+      if (!(error instanceof Refusal)) throw error;
+      notify(`save ${ending}`, { text: texts.files.not_saved(name, error.message), help: error.help });
     } finally {
       button.removeAttribute("aria-busy");
     }

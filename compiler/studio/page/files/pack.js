@@ -2,7 +2,7 @@
 
 import { element } from "../dom.js";
 import { save } from "../save.js";
-import { Refusal, Silence } from "../server.js";
+import { Refusal } from "../server.js";
 import { texts } from "../texts.js";
 
 /** Bytes of a texture's name in a library. */
@@ -33,7 +33,7 @@ export class Pack {
     this.list = element("ol", { class: "packs" });
     this.error = element("div", { class: "error", role: "alert" });
     this.button = element("button", { type: "button", class: "strong", id: "pack", onclick: () => this.#pack() });
-    this.element = element("section", { class: "session-library" }, element("h3", {}, texts.files.session),
+    this.element = element("section", { class: "session-library", "data-needs": "server" }, element("h3", {}, texts.files.session),
       element("p", { class: "small" }, texts.files.session_hint), this.list, this.error, this.button);
     this.#count();
     loader.onshown.push((texture, { kind }) => this.#add(texture, !HAS_FILE.includes(kind)));
@@ -80,8 +80,8 @@ export class Pack {
       save(texts.files.session_file, await this.#server.pack(chosen));
       this.#refuse(null);
     } catch (error) {
-      if (!(error instanceof Refusal) && !(error instanceof Silence)) throw error;
-      this.#refuse(texts.files.not_packed(error.message), error.help ?? texts.server.gone_help);
+      if (!(error instanceof Refusal)) throw error;
+      this.#refuse(texts.files.not_packed(error.message), error.help);
     } finally {
       this.button.removeAttribute("aria-busy");
     }

@@ -1,7 +1,7 @@
 // What changed between two libraries, each texture to pick.
 
 import { element } from "../dom.js";
-import { Refusal, Silence } from "../server.js";
+import { Refusal } from "../server.js";
 import { texts } from "../texts.js";
 
 /** Entries of a kind that are listed. */
@@ -63,9 +63,9 @@ export class Compare {
       this.#show(await this.#server.difference(old, now, this.#abort.signal), old, now);
     } catch (error) {
       if (error.name === "AbortError") return;
-      if (!(error instanceof Refusal) && !(error instanceof Silence)) throw error;
+      if (!(error instanceof Refusal)) throw error;
       this.found.replaceChildren(element("p", { class: "error" }, element("strong", {}, error.message), " ",
-        error.help ?? texts.server.gone_help));
+        error.help));
     }
   }
 

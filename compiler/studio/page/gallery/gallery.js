@@ -2,7 +2,7 @@
 
 import { element, find } from "../dom.js";
 import { notify, withdraw } from "../notices.js";
-import { Refusal, Silence } from "../server.js";
+import { Refusal } from "../server.js";
 import { texts } from "../texts.js";
 import { valueText } from "./attributes.js";
 import { Compare } from "./compare.js";
@@ -61,8 +61,8 @@ class Gallery {
       this.#show(library);
       this.#views.show("gallery");
     } catch (error) {
-      if (!(error instanceof Refusal) && !(error instanceof Silence)) throw error;
-      notify("gallery", { text: texts.gallery.failed(name, error.message), help: error.help ?? texts.server.gone_help,
+      if (!(error instanceof Refusal)) throw error;
+      notify("gallery", { text: texts.gallery.failed(name, error.message), help: error.help,
         action: { label: texts.server.retry, run: () => this.add({ id, name }) } });
     }
   }

@@ -13,8 +13,8 @@ export class Library {
   #places;
 
   constructor(columns) {
-    const { id, name, names, prompts } = columns;
-    Object.assign(this, { id, name, names, prompts, count: names.length });
+    const { id, name, names, prompts, textures } = columns;
+    Object.assign(this, { id, name, names, prompts, textures, count: names.length });
     this.values = Object.fromEntries(ATTRIBUTES.map((attribute) => [attribute.name, valuesOf(attribute, columns)]));
     this.ends = Object.fromEntries(ATTRIBUTES.map(({ name }) => [name, endsOf(this.values[name])]));
     this.#folded = names.map((name, place) => folded(`${name}\n${prompts[place] ?? ""}`));

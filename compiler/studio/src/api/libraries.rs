@@ -1,21 +1,12 @@
 //! The gallery: what it shows of a library, and what is taken of it.
 
-use super::{
-    nothing_here,
-    requests::{JSON_BYTES, parsed},
-};
+use super::nothing_here;
 use crate::{
     difference,
     error::ApiError,
-    http::{Answer, Body, Content, Keep},
+    http::{Answer, Content, Keep},
     studio::Studio,
 };
-use serde::Deserialize;
-
-/// `POST api/library/LIB/N`.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Pick {}
 
 /// What is wanted of a library: the path below `api/library/`.
 #[derive(Debug, PartialEq, Eq)]
@@ -24,7 +15,7 @@ enum Wanted<'a> {
     Columns(&'a str),
     /// `LIB/N.png`
     Picture(&'a str, usize),
-    /// `LIB/N`
+    /// `LIB/N.json`
     Texture(&'a str, usize),
 }
 
@@ -36,28 +27,28 @@ impl<'a> Wanted<'a> {
         };
         Some(match path.split_once('/') {
             None => Self::Columns(path.strip_suffix(".json")?),
-            Some((library, file)) => match file.strip_suffix(".png") {
-                Some(place) => Self::Picture(library, number(place)?),
-                None => Self::Texture(library, number(file)?),
+            Some((library, file)) => match file.split_once('.')? {
+                (place, "png") => Self::Picture(library, number(place)?),
+                (place, "json") => Self::Texture(library, number(place)?),
+                _ => return None,
             },
         })
     }
 }
 
 /// Answers a request for a path below `api/library/`.
-pub(super) fn answer(
-    studio: &Studio,
-    path: &str,
-    (reads, posts): (bool, bool),
-    body: &mut Body<'_, '_>,
-) -> Result<Answer, ApiError> {
-    match Wanted::of(path).ok_or_else(nothing_here)? {
-        Wanted::Columns(id) if reads => {
+pub(super) fn answer(studio: &Studio, path: &str, reads: bool) -> Result<Answer, ApiError> {
+    let wanted = Wanted::of(path).ok_or_else(nothing_here)?;
+    if !reads {
+        return Ok(Answer::only("GET, HEAD"));
+    }
+    match wanted {
+        Wanted::Columns(id) => {
             let named = studio.library(id)?;
             let columns = Content::Shared(named.library.columns(id));
             Ok(Answer::new("application/json", columns, Keep::Forever))
         }
-        Wanted::Picture(id, at) if reads => {
+        Wanted::Picture(id, at) => {
             let named = studio.library(id)?;
             let png = studio.compute(|| named.library.thumbnail(at))?;
             Ok(Answer::new(
@@ -66,13 +57,10 @@ pub(super) fn answer(
                 Keep::Forever,
             ))
         }
-        Wanted::Texture(id, at) if posts => {
-            let Pick {} = parsed(&body.read(JSON_BYTES)?, "{}")?;
+        Wanted::Texture(id, at) => {
             let texture = studio.pick(&studio.library(id)?, at)?;
             Ok(Answer::json(studio.shown(&texture)))
         }
-        Wanted::Columns(_) | Wanted::Picture(..) => Ok(Answer::only("GET, HEAD")),
-        Wanted::Texture(..) => Ok(Answer::only("POST")),
     }
 }
 
@@ -98,17 +86,20 @@ mod tests {
     fn places_are_digits_alone() {
         assert_eq!(Wanted::of("0.json"), Some(Wanted::Columns("0")));
         assert_eq!(Wanted::of("0/12.png"), Some(Wanted::Picture("0", 12)));
-        assert_eq!(Wanted::of("0/12"), Some(Wanted::Texture("0", 12)));
+        assert_eq!(Wanted::of("0/12.json"), Some(Wanted::Texture("0", 12)));
         for path in [
             "",
             "0",
             "0/",
-            "0/+1",
-            "0/-1",
+            "0/12",
+            "0/.json",
+            "0/+1.json",
+            "0/-1.json",
             "0/1.asp",
+            "0/1.json.json",
             "0/1/2",
             "0/x.png",
-            "0/99999999999999999999",
+            "0/99999999999999999999.png",
         ] {
             assert_eq!(Wanted::of(path), None, "{path}");
         }

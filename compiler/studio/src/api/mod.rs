@@ -39,14 +39,14 @@ pub(crate) fn answer(
         return Ok(Answer::json(studio.shown(&texture)));
     }
     if let Some(below) = path.strip_prefix("api/library/") {
-        return libraries::answer(studio, below, (reads, posts), body);
+        return libraries::answer(studio, below, reads);
     }
     if let Some(below) = path.strip_prefix("api/difference/") {
         return libraries::difference(studio, below, reads);
     }
     match path {
-        "api/about" if reads => Ok(Answer::json(studio.about())),
-        "api/about" => Ok(Answer::only("GET, HEAD")),
+        "api/about.json" if reads => Ok(Answer::json(studio.about())),
+        "api/about.json" => Ok(Answer::only("GET, HEAD")),
         "api/open" if posts => files::open(studio, head, body),
         "api/pack" if posts => files::pack(studio, body),
         "api/device/ticks" if reads => device::requests::ticks(studio.device(), &head.target),

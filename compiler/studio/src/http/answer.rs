@@ -8,10 +8,10 @@ use std::{
 };
 
 /// What the page may load, run and send to: its own server alone. WebAssembly is compiled in the worklet; pictures may
-/// come from memory.
-const CONTENT_POLICY: &str = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; \
+/// come from memory. The page itself may state this much.
+pub(crate) const PAGE_POLICY: &str = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; \
      img-src 'self' blob: data:; connect-src 'self'; worker-src 'self'; font-src 'self'; base-uri 'none'; \
-     form-action 'none'; frame-ancestors 'none'";
+     form-action 'none'";
 
 /// Statuses of answers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -146,7 +146,7 @@ impl Answer {
             "HTTP/1.1 {status}\r\n\
              Content-Type: {content_type}\r\n\
              Content-Length: {length}\r\n\
-             Content-Security-Policy: {CONTENT_POLICY}\r\n\
+             Content-Security-Policy: {PAGE_POLICY}; frame-ancestors 'none'\r\n\
              X-Content-Type-Options: nosniff\r\n\
              Referrer-Policy: no-referrer\r\n\
              Cross-Origin-Resource-Policy: same-origin\r\n\

@@ -9,7 +9,7 @@ mod body;
 mod deadline;
 mod head;
 
-pub(crate) use answer::{Answer, Content, Keep, Status};
+pub(crate) use answer::{Answer, Content, Keep, PAGE_POLICY, Status};
 pub(crate) use body::Body;
 pub(crate) use deadline::Timed;
 pub(crate) use head::{Head, Method, read_head};

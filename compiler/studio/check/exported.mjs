@@ -1,0 +1,93 @@
+// The page that `asperity studio LIBRARY --export DIR` wrote, from a server that knows nothing but files: seen, stroked,
+// heard and taken away. No studio runs.
+//
+//   STUDIO_MODULES=…/node_modules ASPERITY=…/asperity node exported.mjs CHROMIUM LIBRARY DIR
+//
+// The library's second texture is called `ice`; its first one is another.
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { createServer } from "node:http";
+import { tmpdir } from "node:os";
+import { extname, join, normalize, resolve } from "node:path";
+import { clean, downloaded, drop, run, shown } from "./aid.mjs";
+import { assert, axe, chromium, count } from "./chromium.mjs";
+import { firstSession, sameAsCommand } from "./ticks.mjs";
+import { Visit } from "./visit.mjs";
+
+const [executablePath, ...paths] = process.argv.slice(2);
+const [library, folder] = paths.map((path) => resolve(path));
+const asperity = process.env.ASPERITY ?? "asperity";
+const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".json": "application/json",
+  ".png": "image/png", ".svg": "image/svg+xml" };
+
+const began = Date.now();
+const work = mkdtempSync(join(tmpdir(), "exported-"));
+// Below a path, as on many a web server.
+const server = createServer(({ url }, response) => {
+  const path = normalize(decodeURIComponent(new URL(url, "http://x").pathname)).replace(/^\/a\/b\//, "");
+  try {
+    const bytes = readFileSync(join(folder, path || "index.html"));
+    response.writeHead(200, { "Content-Type": TYPES[extname(path) || ".html"] ?? "application/octet-stream" }).end(bytes);
+  } catch {
+    response.writeHead(404).end("nothing");
+  }
+});
+await new Promise((done) => server.listen(0, "127.0.0.1", done));
+const address = `http://127.0.0.1:${server.address().port}/a/b/`;
+const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--autoplay-policy=no-user-gesture-required"] });
+try {
+  const visit = await Visit.begin(browser, address);
+  const { page } = visit;
+  await page.evaluate(axe);
+  await page.waitForSelector(".cells [role=option] img[data-state=loaded]");
+  const about = JSON.parse(readFileSync(join(folder, "api/about.json"), "utf8"));
+  assert(await page.locator(".cells [role=option]").count() === about.library.textures, "the gallery shows every texture");
+  for (const id of ["prompt", "open", "feel", "views", "history"]) {
+    assert(!(await page.isVisible(`#${id}`)), `without a server there is no ${id}`);
+  }
+
+  await page.click(".cells [role=option]:has-text(\"ice\")");
+  await shown(page, "ice");
+  await page.waitForSelector(".loaded");
+  assert((await page.textContent("#command code")).startsWith("asperity extract "), "a texture is picked, and its command is shown");
+  await visit.penStroke({ pressure: (t) => 0.3 + 0.2 * Math.sin(9 * t), seconds: 1, px_s: 300 });
+  await visit.take();
+  const played = firstSession(visit.chunks);
+  const difference = sameAsCommand(asperity, work, await visit.asset(), played);
+  assert(difference === null, difference ?? `${played.flags.length} ticks have the bits of asperity render`);
+  await clean(page, assert, "exported", "light");
+  await clean(page, assert, "exported again", "dark");
+
+  await page.click("#take-button");
+  const endings = await page.locator(".kind").evaluateAll((kinds) => kinds.map(({ dataset }) => dataset.ending));
+  assert(endings.join() === about.files.join(), `it can be taken away as ${endings.join(", ")}`);
+  run(asperity, work, "extract", library, "ice", "-o", "ice.asp", "--quiet");
+  for (const ending of endings) {
+    const { name, bytes } = await downloaded(page, () => page.click(`.kind[data-ending="${ending}"]`));
+    if (ending === "asp") assert(bytes.equals(readFileSync(join(work, "ice.asp"))), `${name} has the bytes of asperity extract`);
+    else assert(bytes.length > 1000, `${name} has ${bytes.length} bytes`);
+  }
+  await page.keyboard.press("Escape");
+
+  await page.click(".cells [role=option] >> nth=0");
+  await page.waitForFunction(() => document.getElementById("surface-title").textContent !== "ice");
+  await page.keyboard.press("Control+z");
+  await shown(page, "ice");
+  assert(true, "undo returns to a texture");
+  await drop(page, [{ name: "a.asp", bytes: Buffer.from("x") }], async () =>
+    assert(await page.locator("#drop").isHidden(), "a file that is dragged over it is not asked for"));
+
+  assert(visit.errors.length === 0, `the console has no error${visit.errors.map((text) => `; ${text}`).join("")}`);
+  assert(visit.foreign.length === 0, `nothing else is asked${visit.foreign.map((text) => `; ${text}`).join("")}`);
+
+  server.closeAllConnections();
+  await new Promise((done) => server.close(done));
+  await page.click(".cells [role=option] >> nth=0");
+  await page.waitForSelector("[data-key=server]");
+  assert((await page.textContent("[data-key=server]")).includes("web server"), "a web server that is gone is said");
+  await visit.end();
+} finally {
+  await browser.close();
+  server.close();
+  rmSync(work, { recursive: true });
+}
+console.log(`the exported page: ${count} claims hold in Chromium, ${((Date.now() - began) / 1000).toFixed(0)} s`);

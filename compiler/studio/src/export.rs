@@ -1,0 +1,160 @@
+//! The page of a library as static files, for any web server: the page itself, and the answers of the interface to
+//! everything that it asks for by GET.
+
+use crate::{
+    collection::Collection,
+    download::Download,
+    error::ApiError,
+    http::PAGE_POLICY,
+    page::{self, File},
+    studio::Studio,
+};
+use asperity_io::{
+    diagnostic::Diagnostic,
+    output::{OutputError, WholeFolder},
+};
+use rayon::prelude::*;
+use std::{
+    collections::HashSet,
+    path::Path,
+    sync::{
+        Mutex, PoisonError,
+        atomic::{AtomicU64, AtomicUsize, Ordering},
+    },
+};
+use thiserror::Error;
+
+/// What people can take of a texture from such a page.
+pub(crate) const OFFERED: [&str; 3] = ["asp", "png", "normal.png"];
+/// What the page itself loads, too.
+const LOADED: &str = "worklet.asp";
+/// Before which the policy stands in the page, since a static server sends none.
+const BEFORE_POLICY: &str = "<meta name=\"viewport\"";
+
+/// What was written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Exported {
+    /// How many textures.
+    pub textures: usize,
+    /// How many files.
+    pub files: usize,
+    /// Bytes of all files.
+    pub bytes: u64,
+}
+
+/// Why a page was not written.
+#[derive(Debug, Error)]
+pub enum ExportError {
+    /// A texture whose files cannot be computed.
+    #[error("{name}: {error}")]
+    Texture {
+        /// The texture.
+        name: String,
+        /// Why.
+        error: String,
+        /// What to do about it.
+        help: String,
+    },
+    /// A file that cannot be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+}
+
+impl Diagnostic for ExportError {
+    fn remedy(&self) -> String {
+        match self {
+            Self::Texture { help, .. } => help.clone(),
+            Self::Output(error) => error.remedy(),
+        }
+    }
+}
+
+/// Writes the page of a collection into a folder that is new or empty. The same collection gives the same bytes on
+/// every machine, wherever it lies. `done` is called after each texture, from any thread.
+///
+/// # Errors
+/// [`ExportError`] for the first texture that cannot be shown, and where a file cannot be written. Nothing of the page
+/// stays then.
+pub fn export(
+    collection: Collection,
+    folder: &Path,
+    done: impl Fn() + Sync,
+) -> Result<Exported, ExportError> {
+    let writer = Writer {
+        folder: WholeFolder::create(folder)?,
+        files: AtomicUsize::new(0),
+        bytes: AtomicU64::new(0),
+    };
+    for file in page::FILES {
+        writer.write(file.name, &exported(file))?;
+    }
+    let textures = collection.textures();
+    let studio = Studio::new(Some(collection.elsewhere()), None);
+    writer.write("api/about.json", &studio.about_exported())?;
+    // The library that the studio was started with, which is there.
+    if let Some(named) = studio.start() {
+        let (id, library) = (&named.id, &named.library);
+        let written = Mutex::new(HashSet::new());
+        let ids = (0..textures).into_par_iter().map(|at| {
+            let fail = |error: ApiError| ExportError::Texture {
+                name: library.names().nth(at).unwrap_or_default().to_owned(),
+                error: error.error,
+                help: error.help.unwrap_or_default(),
+            };
+            let texture = library.texture(at).map_err(fail)?;
+            let shown = studio.shown(&texture);
+            writer.write(&format!("api/library/{id}/{at}.json"), shown.as_bytes())?;
+            let mut written = written.lock().unwrap_or_else(PoisonError::into_inner);
+            let is_new = written.insert(texture.id().to_owned());
+            drop(written);
+            // Textures that are the same but for their place share their files.
+            if is_new {
+                for ending in OFFERED.into_iter().chain([LOADED]) {
+                    let Some(file) = Download::of(ending) else {
+                        continue;
+                    };
+                    let bytes = file.bytes(&texture).map_err(fail)?;
+                    writer.write(&format!("api/texture/{}.{ending}", texture.id()), &bytes)?;
+                }
+            }
+            done();
+            Ok(texture.id().to_owned())
+        });
+        let ids: Vec<String> = ids.collect::<Result<_, ExportError>>()?;
+        let columns = library.columns_with(id, &ids);
+        writer.write(&format!("api/library/{id}.json"), &columns)?;
+    }
+    writer.folder.commit()?;
+    Ok(Exported {
+        textures,
+        files: writer.files.into_inner(),
+        bytes: writer.bytes.into_inner(),
+    })
+}
+
+struct Writer {
+    folder: WholeFolder,
+    files: AtomicUsize,
+    bytes: AtomicU64,
+}
+
+impl Writer {
+    fn write(&self, name: &str, bytes: &[u8]) -> Result<(), OutputError> {
+        self.folder.write(name, bytes)?;
+        self.files.fetch_add(1, Ordering::Relaxed);
+        self.bytes.fetch_add(bytes.len() as u64, Ordering::Relaxed);
+        Ok(())
+    }
+}
+
+/// A file of the page, as a static server gives it.
+fn exported(file: &File) -> Vec<u8> {
+    if file.name != page::INDEX {
+        return file.bytes.to_vec();
+    }
+    let page = String::from_utf8_lossy(file.bytes);
+    let policy = format!(
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"{PAGE_POLICY}\">\n  {BEFORE_POLICY}"
+    );
+    page.replacen(BEFORE_POLICY, &policy, 1).into_bytes()
+}
