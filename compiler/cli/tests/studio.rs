@@ -194,9 +194,22 @@ fn the_page_of_a_library_is_written_once_and_replaces_nothing() {
     for wrong in [
         &["studio", "--export", "new"][..],
         &["studio", "mine", "--export", "new", "--no-open"],
+        &["studio", "mine", "--compiler", "mine/grit.asp"],
     ] {
         assert_eq!(asperity(folder, wrong).status.code(), Some(2), "{wrong:?}");
     }
+    refused(
+        folder,
+        &[
+            "studio",
+            "mine",
+            "--export",
+            "new",
+            "--compiler",
+            "mine/grit.asp",
+        ],
+        &["grit.asp", "not the studio's compiler", "build-module"],
+    );
     assert_eq!(entries(folder), ["mine", "page"]);
 }
 

@@ -11,8 +11,12 @@
 
 mod candidates;
 mod discover;
+mod error;
+#[cfg_attr(target_family = "wasm", path = "no_library.rs")]
 mod library;
+#[cfg_attr(target_family = "wasm", path = "no_session.rs")]
 mod session;
 
 pub use discover::{Attempt, Discovery, NotFound, Source, discover};
-pub use session::{LoadError, OnnxRuntime};
+pub use error::LoadError;
+pub use session::OnnxRuntime;

@@ -5,6 +5,10 @@ use std::{
     sync::{Mutex, OnceLock, PoisonError},
 };
 
+use crate::{
+    discover::{Discovery, NotFound, find},
+    error::LoadError,
+};
 use asperity_nn::{Bytes, Dim, ElementType, Port, RunError, Session, Tensor, check_inputs};
 use ort::{
     session::{
@@ -13,47 +17,8 @@ use ort::{
     },
     value::{DynValue, Outlet, Tensor as OrtTensor, TensorElementType, TensorRef, ValueType},
 };
-use thiserror::Error;
-
-use crate::discover::{Discovery, NotFound, find};
 
 const BACKEND: &str = "ONNX Runtime";
-
-/// Why a network cannot be loaded.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum LoadError {
-    /// No library was found.
-    #[error(transparent)]
-    Library(#[from] NotFound),
-    /// ONNX Runtime refuses the model.
-    #[error("ONNX Runtime refuses the model: {0}")]
-    Model(String),
-    /// An input or output whose type is not one of our tensors.
-    #[error(
-        "{direction} `{name}` is {found}; tensors of float32, int64, int32, int8, uint8 and bool are supported"
-    )]
-    Port {
-        /// `input` or `output`.
-        direction: &'static str,
-        /// Its name.
-        name: String,
-        /// Its type.
-        found: String,
-    },
-}
-
-impl LoadError {
-    /// What the user can do, in one sentence.
-    #[must_use]
-    pub fn remedy(&self) -> String {
-        match self {
-            Self::Library(error) => error.remedy(),
-            Self::Model(_) => "check the file, or install a newer onnxruntime".to_owned(),
-            Self::Port { .. } => "export the model with float32 and integer ports".to_owned(),
-        }
-    }
-}
 
 /// A network that ONNX Runtime runs.
 #[derive(Debug)]

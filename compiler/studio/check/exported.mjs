@@ -1,5 +1,5 @@
 // The page that `asperity studio LIBRARY --export DIR` wrote, from a server that knows nothing but files: seen, stroked,
-// heard and taken away. No studio runs.
+// heard and taken away. No studio runs. Where `--compiler` gave it one, it also compiles, edits, opens and saves.
 //
 //   STUDIO_MODULES=…/node_modules ASPERITY=…/asperity node exported.mjs CHROMIUM LIBRARY DIR
 //
@@ -10,6 +10,8 @@ import { tmpdir } from "node:os";
 import { extname, join, normalize, resolve } from "node:path";
 import { clean, downloaded, drop, run, shown } from "./aid.mjs";
 import { assert, axe, chromium, count } from "./chromium.mjs";
+import { files } from "./files.mjs";
+import { after, written } from "./steering.mjs";
 import { firstSession, sameAsCommand } from "./ticks.mjs";
 import { Visit } from "./visit.mjs";
 
@@ -21,10 +23,13 @@ const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/cs
 
 const began = Date.now();
 const work = mkdtempSync(join(tmpdir(), "exported-"));
+/** A file that the server says it does not have. */
+let withheld = null;
 // Below a path, as on many a web server.
 const server = createServer(({ url }, response) => {
   const path = normalize(decodeURIComponent(new URL(url, "http://x").pathname)).replace(/^\/a\/b\//, "");
   try {
+    if (path === withheld) throw new Error("not now");
     const bytes = readFileSync(join(folder, path || "index.html"));
     response.writeHead(200, { "Content-Type": TYPES[extname(path) || ".html"] ?? "application/octet-stream" }).end(bytes);
   } catch {
@@ -34,17 +39,11 @@ const server = createServer(({ url }, response) => {
 await new Promise((done) => server.listen(0, "127.0.0.1", done));
 const address = `http://127.0.0.1:${server.address().port}/a/b/`;
 const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--autoplay-policy=no-user-gesture-required"] });
-try {
-  const visit = await Visit.begin(browser, address);
-  const { page } = visit;
-  await page.evaluate(axe);
-  await page.waitForSelector(".cells [role=option] img[data-state=loaded]");
-  const about = JSON.parse(readFileSync(join(folder, "api/about.json"), "utf8"));
-  assert(await page.locator(".cells [role=option]").count() === about.library.textures, "the gallery shows every texture");
-  for (const id of ["prompt", "open", "feel", "views", "history"]) {
-    assert(!(await page.isVisible(`#${id}`)), `without a server there is no ${id}`);
-  }
 
+async function textures(visit, about) {
+  const { page } = visit;
+  await page.waitForSelector(".cells [role=option] img[data-state=loaded]");
+  assert(await page.locator(".cells [role=option]").count() === about.library.textures, "the gallery shows every texture");
   await page.click(".cells [role=option]:has-text(\"ice\")");
   await shown(page, "ice");
   await page.waitForSelector(".loaded");
@@ -54,6 +53,14 @@ try {
   const played = firstSession(visit.chunks);
   const difference = sameAsCommand(asperity, work, await visit.asset(), played);
   assert(difference === null, difference ?? `${played.flags.length} ticks have the bits of asperity render`);
+}
+
+/** A page that shows, and makes nothing. */
+async function files_alone(visit, about) {
+  const { page } = visit;
+  for (const id of ["prompt", "open", "feel", "views", "history"]) {
+    assert(!(await page.isVisible(`#${id}`)), `without a compiler there is no ${id}`);
+  }
   await clean(page, assert, "exported", "light");
   await clean(page, assert, "exported again", "dark");
 
@@ -75,15 +82,69 @@ try {
   assert(true, "undo returns to a texture");
   await drop(page, [{ name: "a.asp", bytes: Buffer.from("x") }], async () =>
     assert(await page.locator("#drop").isHidden(), "a file that is dragged over it is not asked for"));
+}
 
+/** A page with the compiler: what the studio does, by the same bytes. */
+async function compiler(visit) {
+  const { page } = visit;
+  const tools = { assert, asperity, work, offline: true };
+  const asset = async () => {
+    await page.click("#take-button");
+    const { bytes } = await downloaded(page, () => page.click(".kind[data-ending=asp]"));
+    await page.keyboard.press("Escape");
+    return bytes;
+  };
+  const same = async (now, what) => assert((await asset()).equals(written(tools, now.command, what,
+    { "ice.asp": ice })), `${what}: the bytes of ${now.command.split("\n").at(-1)}`);
+  run(asperity, work, "extract", library, "ice", "-o", "ice.asp", "--quiet");
+  const ice = readFileSync(join(work, "ice.asp"));
+  withheld = "compiler.wasm";
+  await page.focus("#slider-rough");
+  await page.keyboard.press("ArrowRight");
+  await page.waitForSelector("#feel .error strong");
+  assert((await page.textContent("#feel .error")).includes("Try again"), `a compiler that cannot be loaded is said: ${await page.textContent("#feel .error strong")}`);
+  assert((await page.textContent("#opening")) === "", "and its progress is gone");
+  withheld = null;
+  assert(visit.errors.splice(0).every((text) => text.includes("404")), "the console names the file alone");
+  await page.keyboard.press("ArrowLeft");
+  // A texture of the files, edited: the module is given it.
+  await page.focus("#slider-rough");
+  const began = Date.now();
+  await same(await after(page, () => page.keyboard.press("ArrowRight"), ({ count }, { count: was }) => count > was), "edit");
+  console.log(`  the first edit took ${((Date.now() - began) / 1000).toFixed(1)} s, loading the compiler`);
+  await page.click("#views label:first-child");
+  const compiled = Date.now();
+  await visit.compile("rough abrasive sheet with gritty particles");
+  console.log(`  a prompt took ${Date.now() - compiled} ms`);
+  await same(await after(page, async () => {}, () => true), "prompt");
+  for (const scheme of ["light", "dark"]) await clean(page, assert, "offline", scheme);
+
+  const other = await Visit.begin(browser, address);
+  await other.page.evaluate(axe);
+  await other.page.waitForSelector(".cells [role=option]");
+  await other.page.click("#views label:first-child");
+  await files(other, tools);
+  assert(other.errors.length === 0 && other.foreign.length === 0, `nor has another visit${other.errors.map((text) => `; ${text}`).join("")}`);
+  await other.end();
+}
+
+try {
+  const visit = await Visit.begin(browser, address);
+  const { page } = visit;
+  await page.evaluate(axe);
+  const about = JSON.parse(readFileSync(join(folder, "api/about.json"), "utf8"));
+  await textures(visit, about);
+  await (about.compiler ? compiler(visit) : files_alone(visit, about));
   assert(visit.errors.length === 0, `the console has no error${visit.errors.map((text) => `; ${text}`).join("")}`);
   assert(visit.foreign.length === 0, `nothing else is asked${visit.foreign.map((text) => `; ${text}`).join("")}`);
 
   server.closeAllConnections();
   await new Promise((done) => server.close(done));
-  await page.click(".cells [role=option] >> nth=0");
-  await page.waitForSelector("[data-key=server]");
-  assert((await page.textContent("[data-key=server]")).includes("web server"), "a web server that is gone is said");
+  if (!about.compiler) {
+    await page.click(".cells [role=option] >> nth=0");
+    await page.waitForSelector("[data-key=server]");
+    assert((await page.textContent("[data-key=server]")).includes("web server"), "a web server that is gone is said");
+  }
   await visit.end();
 } finally {
   await browser.close();

@@ -9,7 +9,7 @@ const PATIENCE_MS = 15000;
 /** What the page shows now: the identity of the texture, and how many the session has. */
 export const shown = (page) => page.evaluate(() => ({
   told: document.querySelector("#timeline .told").textContent,
-  id: document.querySelector("#timeline .tile[aria-current] img")?.src.match(/texture\/(\w+)/)[1],
+  id: document.querySelector("#timeline .tile[aria-current]")?.dataset.texture,
   count: document.querySelectorAll("#timeline .tile").length,
   command: document.querySelector("#command code")?.textContent,
 }));
@@ -33,7 +33,7 @@ export const bytesOf = async (page, id) => Buffer.from(await page.evaluate(async
 }, id));
 
 /** Runs command lines in a folder of their own, beside `files`; the bytes of the file that the last one writes. */
-function written({ asperity, work }, lines, name, files) {
+export function written({ asperity, work }, lines, name, files) {
   const folder = join(work, name);
   mkdirSync(folder);
   for (const [file, bytes] of Object.entries(files)) writeFileSync(join(folder, file), bytes);

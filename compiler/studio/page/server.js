@@ -1,5 +1,8 @@
-// Where textures come from: the studio's server, or the files that its export wrote, which have the same addresses.
+// Where textures come from: the studio's server, or the files that its export wrote, which have the same addresses,
+// and the compiler's module beside those.
 
+import { ModuleFailure } from "./offline/module.js";
+import { Offline } from "./offline/offline.js";
 import { texts } from "./texts.js";
 
 /** The server refused; `message` and `help` are the texts of the command. */
@@ -17,6 +20,8 @@ export class Server {
   #base;
   /** Static files, which any web server may give. */
   #exported = false;
+  /** Who answers where files do not, or `null`. */
+  #offline = null;
 
   constructor(base = document.baseURI) {
     this.#base = base;
@@ -25,6 +30,7 @@ export class Server {
   async about(signal) {
     const about = await this.#json("api/about.json", { signal });
     this.#exported = about.exported;
+    if (about.compiler) this.#offline ??= new Offline(about, this.#base, (path) => this.#answer(path, {}));
     return about;
   }
 
@@ -68,10 +74,10 @@ export class Server {
     return this.#json(`api/library/${library.id}/${index}.json`, { signal });
   }
 
-  /** The address of its picture, for an image. */
+  /** Its picture for an image: an address, to be revoked if it is a blob's. */
   thumbnail(library, index) {
     const { id, textures } = library;
-    return textures ? this.portrait({ id: textures[index] }) : new URL(`api/library/${id}/${index}.png`, this.#base).href;
+    return this.#picture(textures ? `api/texture/${textures[index]}.png` : `api/library/${id}/${index}.png`);
   }
 
   /** What `asperity diff --json` prints of two libraries. */
@@ -100,9 +106,9 @@ export class Server {
     return (await this.#answer(`api/texture/${texture.id}.${ending}`, { signal })).blob();
   }
 
-  /** The address of its picture, for an image. */
+  /** Its picture for an image, as `thumbnail`. */
   portrait(texture) {
-    return new URL(`api/texture/${texture.id}.png`, this.#base).href;
+    return this.#picture(`api/texture/${texture.id}.png`);
   }
 
   /** The asset for the worklet, an ArrayBuffer. */
@@ -123,22 +129,29 @@ export class Server {
     return (await this.#answer(name, {})).arrayBuffer();
   }
 
+  async #picture(path) {
+    return this.#offline?.asks(path) ? URL.createObjectURL(await (await this.#answer(path, {})).blob())
+      : new URL(path, this.#base).href;
+  }
+
   #posted(path, value, signal) {
     return this.#answer(path,
       { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(value), signal });
   }
 
   async #post(path, value, signal) {
-    return this.#read(await this.#posted(path, value, signal));
+    return this.#read(path, await this.#posted(path, value, signal));
   }
 
   async #json(path, options) {
-    return this.#read(await this.#answer(path, options));
+    return this.#read(path, await this.#answer(path, options));
   }
 
-  async #read(response) {
+  async #read(path, response) {
     try {
-      return await response.json();
+      const value = await response.json();
+      this.#offline?.met(path, value);
+      return value;
     } catch (error) {
       if (error.name === "AbortError") throw error;
       throw new Refusal(texts.server.unreadable, texts.server.unreadable_help);
@@ -148,9 +161,12 @@ export class Server {
   async #answer(path, options) {
     let response;
     try {
-      response = await fetch(new URL(path, this.#base), options);
+      response = await (this.#offline?.asks(path, options.method) ? this.#offline.ask(path, options)
+        : fetch(new URL(path, this.#base), options));
+      options.signal?.throwIfAborted();
     } catch (error) {
-      if (error.name === "AbortError") throw error;
+      if (error.name === "AbortError" || error instanceof Refusal) throw error;
+      if (error instanceof ModuleFailure) throw new Refusal(texts.offline.failed(error.message), texts.offline.failed_help);
       const { gone, gone_help } = this.#exported ? texts.exported : texts.server;
       throw new Silence(gone, gone_help);
     }

@@ -324,6 +324,13 @@ export const texts = {
     missing_help: "Copy the folder that “asperity studio --export” wrote to the web server again, all of it.",
   },
 
+  offline: {
+    loading: (mb, of) => `Loading the compiler: ${number(mb, 0)} of ${number(of, 0)} MB …`,
+    failed: (why) => `The compiler of this page has failed: ${why}`,
+    failed_help: "Try again, which loads it anew. What is not saved of this session can be made again by the same steps.",
+    version: (module, page) => `its version is ${module}, that of the page ${page}`,
+  },
+
   gallery: {
     title: "Gallery",
     views: "What stands beside the surface",

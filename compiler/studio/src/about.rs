@@ -1,8 +1,9 @@
 //! What the page asks first: what the server is and can do.
 
 use crate::{
+    VERSION,
     device::{Description, LiveDevice},
-    export::OFFERED,
+    export::{MODULE, OFFERED},
     prompts::Prompts,
     shelf::Named,
 };
@@ -28,8 +29,9 @@ struct About<'a> {
     words: Vec<&'static str>,
     sliders: Vec<Slider>,
     exports: Vec<Export>,
-    /// Endings of the files of a texture that can be had; all where this is null.
+    /// Endings of the files that are there of each texture, where they are static.
     files: Option<&'a [&'a str]>,
+    compiler: Option<Compiler>,
     device: Option<Description<'a>>,
 }
 
@@ -82,7 +84,16 @@ pub(crate) enum Served {
     /// From a server that answers.
     Live,
     /// From static files.
-    Exported,
+    Files,
+    /// From static files, with a module of so many bytes that answers as the server does.
+    FilesAndModule(usize),
+}
+
+/// The compiler's module beside static files.
+#[derive(Serialize)]
+struct Compiler {
+    file: &'static str,
+    bytes: usize,
 }
 
 /// What the server is, JSON. It waits for the networks where there are any.
@@ -93,9 +104,9 @@ pub(crate) fn about(
     served: Served,
 ) -> Vec<u8> {
     let about = About {
-        version: env!("CARGO_PKG_VERSION"),
-        exported: served == Served::Exported,
-        opens: served == Served::Live,
+        version: VERSION,
+        exported: served != Served::Live,
+        opens: served != Served::Files,
         prompts: prompts.exist(),
         library: start.map(Library::of),
         folder: start
@@ -111,7 +122,14 @@ pub(crate) fn about(
             .map(|loaded| AXES.map(|axis| slider(axis, &loaded.scale)).into())
             .unwrap_or_default(),
         exports: exports(),
-        files: (served == Served::Exported).then_some(&OFFERED),
+        files: (served != Served::Live).then_some(&OFFERED),
+        compiler: match served {
+            Served::FilesAndModule(bytes) => Some(Compiler {
+                file: MODULE,
+                bytes,
+            }),
+            Served::Live | Served::Files => None,
+        },
         device: device.map(LiveDevice::description),
     };
     // Plain structures of numbers and strings always serialise.

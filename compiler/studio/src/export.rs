@@ -2,11 +2,14 @@
 //! everything that it asks for by GET.
 
 use crate::{
+    about::Served,
     collection::Collection,
     download::Download,
     error::ApiError,
     http::PAGE_POLICY,
+    module::Module,
     page::{self, File},
+    prompts::LoadPrompts,
     studio::Studio,
 };
 use asperity_io::{
@@ -28,6 +31,8 @@ use thiserror::Error;
 pub(crate) const OFFERED: [&str; 3] = ["asp", "png", "normal.png"];
 /// What the page itself loads, too.
 const LOADED: &str = "worklet.asp";
+/// The file of the compiler.
+pub(crate) const MODULE: &str = "compiler.wasm";
 /// Before which the policy stands in the page, since a static server sends none.
 const BEFORE_POLICY: &str = "<meta name=\"viewport\"";
 
@@ -72,11 +77,15 @@ impl Diagnostic for ExportError {
 /// Writes the page of a collection into a folder that is new or empty. The same collection gives the same bytes on
 /// every machine, wherever it lies. `done` is called after each texture, from any thread.
 ///
+/// With a module, the page also compiles, edits, opens and saves as the studio does; `load` gives the same prompt compiler
+/// here, for what the page says of each texture.
+///
 /// # Errors
 /// [`ExportError`] for the first texture that cannot be shown, and where a file cannot be written. Nothing of the page
 /// stays then.
 pub fn export(
     collection: Collection,
+    module: Option<(Module, LoadPrompts)>,
     folder: &Path,
     done: impl Fn() + Sync,
 ) -> Result<Exported, ExportError> {
@@ -89,8 +98,14 @@ pub fn export(
         writer.write(file.name, &exported(file))?;
     }
     let textures = collection.textures();
-    let studio = Studio::new(Some(collection.elsewhere()), None);
-    writer.write("api/about.json", &studio.about_exported())?;
+    let (module, load) = module.unzip();
+    let studio = Studio::new(Some(collection.elsewhere()), load);
+    let mut served = Served::Files;
+    if let Some(module) = module {
+        writer.write(MODULE, module.bytes())?;
+        served = Served::FilesAndModule(module.bytes().len());
+    }
+    writer.write("api/about.json", &studio.about_exported(served))?;
     // The library that the studio was started with, which is there.
     if let Some(named) = studio.start() {
         let (id, library) = (&named.id, &named.library);

@@ -43,6 +43,7 @@ mod export;
 mod guard;
 mod http;
 mod making;
+mod module;
 mod opening;
 mod packing;
 mod page;
@@ -57,12 +58,18 @@ mod texture;
 mod thumbnails;
 mod token;
 mod turns;
+mod within;
 mod worklet_asset;
+
+/// The version of page, interface and module, which belong together.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 pub use browser::{BrowserError, show};
 pub use collection::{Collection, CollectionError};
 pub use device::{LiveDevice, LiveStatus, LiveTick, Percentiles, Wanted};
 pub use export::{ExportError, Exported, export};
+pub use module::{Module, ModuleError};
 pub use prompts::LoadPrompts;
 pub use server::{BindError, Limits, Server, Stopper};
 pub use studio::Studio;
+pub use within::Reply;

@@ -34,6 +34,7 @@ pub(crate) const FILES: &[File] = files! {
         "files/files.js" "files/in.js" "files/kinds.js" "files/out.js" "files/pack.js"
         "gallery/attributes.js" "gallery/compare.js" "gallery/filters.js" "gallery/gallery.js" "gallery/grid.js"
         "gallery/hand-button.js" "gallery/library.js" "gallery/scatter.js" "gallery/span.js" "gallery/thumbnails.js" "gallery/views.js"
+        "offline/module.js" "offline/offline.js" "offline/worker.js"
         "output/chain.js" "output/equaliser-panel.js" "output/equaliser.js" "output/modes.js" "output/motors-panel.js"
         "output/motors.js" "output/panel.js" "output/response.js" "output/shift.js" "output/tones-button.js"
         "output/tones.js"

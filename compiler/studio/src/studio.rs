@@ -77,8 +77,8 @@ impl Studio {
     }
 
     /// What the page is without a server, JSON.
-    pub(crate) fn about_exported(&self) -> Vec<u8> {
-        about::about(&self.prompts, self.start().as_ref(), None, Served::Exported)
+    pub(crate) fn about_exported(&self, served: Served) -> Vec<u8> {
+        about::about(&self.prompts, self.start().as_ref(), None, served)
     }
 
     /// The library that it was started with.

@@ -40,7 +40,7 @@ fn exported(collection: &Path, to: &Path) -> (BTreeMap<String, Vec<u8>>, Exporte
     let collection =
         Collection::open(collection).unwrap_or_else(|_| panic!("{}", collection.display()));
     let done = AtomicUsize::new(0);
-    let said = export(collection, to, || {
+    let said = export(collection, None, to, || {
         done.fetch_add(1, Ordering::Relaxed);
     })
     .expect("room");
@@ -113,6 +113,7 @@ fn the_files_are_the_answers_of_a_server_and_name_no_folder() {
                 "opens" | "prompts" => json!(false),
                 "folder" => Value::Null,
                 "words" | "sliders" => json!([]),
+                "compiler" => Value::Null,
                 "files" => json!(["asp", "png", "normal.png"]),
                 _ => live[field].clone(),
             };
@@ -169,7 +170,7 @@ fn a_texture_that_is_damaged_meanwhile_ends_it_and_leaves_nothing() {
     let last = bytes.len() - 9;
     bytes[last] ^= 1;
     fs::write(assets.join("cork.asp"), &bytes).expect("room");
-    let error = export(collection, &page, || ()).expect_err("it is damaged");
+    let error = export(collection, None, &page, || ()).expect_err("it is damaged");
     assert!(error.to_string().starts_with("cork: "), "{error}");
     assert!(!error.remedy().is_empty());
     assert!(!page.exists());

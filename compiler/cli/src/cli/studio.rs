@@ -10,7 +10,7 @@ only under that address, which holds a secret: whoever has it can use the studio
 `asperity compile` does, to the same bytes. Ctrl-C ends it.
 
 With --export, the page of a library becomes static files for any web server: to see, hear and stroke its textures without \
-Asperity. Browsers play sound only for pages that come over HTTPS or from the same machine.
+Asperity. With --compiler as well, the page also compiles prompts, in a worker. Browsers play sound only for pages that come over HTTPS or from the same machine.
 
 Examples:
   asperity studio
@@ -31,4 +31,8 @@ pub(crate) struct Studio {
     /// Write the page of the library as static files into this folder, new or empty, and serve nothing
     #[arg(long, value_name = "DIR", requires = "collection", conflicts_with_all = ["port", "no_open"])]
     pub(crate) export: Option<PathBuf>,
+    /// With --export: put this compiler into the page, so that it needs no server for prompts, edits and files;
+    /// `compiler/studio/build-module` builds it
+    #[arg(long, value_name = "FILE.wasm", requires = "export")]
+    pub(crate) compiler: Option<PathBuf>,
 }

@@ -4,11 +4,11 @@ use crate::cli::Studio as Arguments;
 use asperity::{inference::Backend, prompt::PromptCompiler};
 use asperity_console::{Console, on_interrupt};
 use asperity_io::{
-    diagnostic::{Failures, one, texts},
+    diagnostic::{Failure, Failures, one, texts},
     output::display,
     shown::{counted, size},
 };
-use asperity_studio::{Collection, Limits, Server, Studio, export, show};
+use asperity_studio::{Collection, Limits, LoadPrompts, Module, Server, Studio, export, show};
 use std::path::Path;
 
 pub(crate) fn run(args: &Arguments, console: Console) -> Result<(), Failures> {
@@ -18,7 +18,10 @@ pub(crate) fn run(args: &Arguments, console: Console) -> Result<(), Failures> {
         .map(Collection::open)
         .transpose()?;
     match (&args.export, collection) {
-        (Some(folder), Some(collection)) => write(collection, folder, console),
+        (Some(folder), Some(collection)) => {
+            let module = args.compiler.as_deref().map(Module::open).transpose();
+            write(collection, module.map_err(one)?, folder, console)
+        }
         (_, collection) => serve(args, collection, console),
     }
 }
@@ -28,10 +31,7 @@ fn serve(
     collection: Option<Collection>,
     console: Console,
 ) -> Result<(), Failures> {
-    let studio = Studio::new(
-        collection,
-        Some(|| Ok(PromptCompiler::embedded(&Backend::Portable)?)),
-    );
+    let studio = Studio::new(collection, Some(prompts));
     let server = Server::bind(args.port, studio, Limits::default()).map_err(one)?;
     let stopper = server.stopper();
     on_interrupt(move || stopper.stop()).map_err(one)?;
@@ -47,9 +47,23 @@ fn serve(
     Ok(())
 }
 
-fn write(collection: Collection, folder: &Path, console: Console) -> Result<(), Failures> {
+fn prompts() -> Result<PromptCompiler, Failure> {
+    Ok(PromptCompiler::embedded(&Backend::Portable)?)
+}
+
+fn write(
+    collection: Collection,
+    module: Option<Module>,
+    folder: &Path,
+    console: Console,
+) -> Result<(), Failures> {
     let bar = console.rated_bar(collection.textures(), "textures");
-    let written = export(collection, folder, || bar.inc(1));
+    let written = export(
+        collection,
+        module.map(|module| (module, prompts as LoadPrompts)),
+        folder,
+        || bar.inc(1),
+    );
     bar.finish_and_clear();
     let written = written.map_err(one)?;
     let report = format!(

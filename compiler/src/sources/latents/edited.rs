@@ -3,6 +3,7 @@
 use super::{
     error::EditError,
     latent_editor::LatentEditor,
+    look::Look,
     solve::{along, reach},
 };
 use crate::{
@@ -56,12 +57,13 @@ impl LatentEditor<'_> {
         if sliders.are_still() {
             return Ok(*latents);
         }
-        let before = self.kept_attributes(latents, request)?;
-        let through = self.through(latents, sliders, request, &before)?;
-        let (missing, edited) = self.closed(through, sliders, request, &before)?;
+        let look = Look::new(self, request);
+        let before = look.kept(latents)?;
+        let through = self.through(latents, sliders, &look, &before)?;
+        let (missing, edited) = self.closed(through, sliders, &look, &before)?;
         let sharp = missing[Axis::Sharp as usize].abs();
         if sharp > SHARP && sliders.sharper == 0.0 {
-            let (plain, shifted) = self.closed(*latents, sliders, request, &before)?;
+            let (plain, shifted) = self.closed(*latents, sliders, &look, &before)?;
             if worst(&plain) < worst(&missing) {
                 return Ok(shifted);
             }
@@ -74,14 +76,14 @@ impl LatentEditor<'_> {
         &self,
         latents: &Latents,
         sliders: &Sliders,
-        request: &Request,
+        look: &Look<'_>,
         before: &Attributes,
     ) -> Result<Latents, EditError> {
         let mut aim = *sliders;
         let mut best = (f64::INFINITY, *latents);
         for _ in 0..CORRECTIONS {
-            let edited = self.moved(latents, sliders, &aim)?;
-            let missing = self.missing(&edited, sliders, request, before)?;
+            let edited = self.moved(latents, sliders, &aim, look)?;
+            let missing = self.missing_from(&look.kept(&edited)?, sliders, before);
             // What is missing of the others can be moved after decoding.
             let sharp = missing[Axis::Sharp as usize].abs();
             let distance = sharp.max(0.5 * worst(&missing));
@@ -105,13 +107,13 @@ impl LatentEditor<'_> {
         &self,
         latents: Latents,
         sliders: &Sliders,
-        request: &Request,
+        look: &Look<'_>,
         before: &Attributes,
     ) -> Result<(Missing, Latents), EditError> {
         let mut now = latents;
         let mut best: Option<(Missing, Latents)> = None;
         for _ in 0..=CLOSINGS {
-            let after = self.kept_attributes(&now, request)?;
+            let after = look.kept(&now)?;
             let missing = self.missing_from(&after, sliders, before);
             if best.is_none_or(|(least, _)| sum_of_squares(&missing) < sum_of_squares(&least)) {
                 best = Some((missing, now));
@@ -133,17 +135,6 @@ impl LatentEditor<'_> {
         Ok(best.unwrap_or(([0.0; 4], latents)))
     }
 
-    fn missing(
-        &self,
-        edited: &Latents,
-        sliders: &Sliders,
-        request: &Request,
-        before: &Attributes,
-    ) -> Result<Missing, EditError> {
-        let after = self.kept_attributes(edited, request)?;
-        Ok(self.missing_from(&after, sliders, before))
-    }
-
     fn missing_from(&self, after: &Attributes, sliders: &Sliders, before: &Attributes) -> Missing {
         AXES.map(|axis| {
             let places = self
@@ -163,8 +154,9 @@ impl LatentEditor<'_> {
         latents: &Latents,
         sliders: &Sliders,
         aim: &Sliders,
+        look: &Look<'_>,
     ) -> Result<Latents, EditError> {
-        let before = self.attributes(latents)?;
+        let before = look.decoded(latents)?;
         let mut edited = *latents;
         let asked = |axis: Axis| sliders.along(axis) != 0.0;
         let target = |axis: Axis| {
@@ -175,17 +167,17 @@ impl LatentEditor<'_> {
         if asked(Axis::Rough) || asked(Axis::Sharp) {
             let axes = [Axis::Rough, Axis::Sharp];
             if let [Some(rough), Some(sharp)] = axes.map(target) {
-                let look = |z: &Latent| self.seen(z, &latents.shift, &axes);
+                let seen = |z: &Latent| self.seen(z, &latents.shift, &axes, look);
                 let (start, gradients) = (&latents.slide, axes.map(gradient));
-                edited.slide = reach(start, &gradients, &self.metric, &[rough, sharp], look)?.z;
+                edited.slide = reach(start, &gradients, &self.metric, &[rough, sharp], seen)?.z;
             }
         }
         if asked(Axis::Hard)
             && let Some(hard) = target(Axis::Hard)
         {
-            let look = |z: &Latent| self.seen(z, &latents.shift, &[Axis::Hard]);
+            let seen = |z: &Latent| self.seen(z, &latents.shift, &[Axis::Hard], look);
             let gradients = [gradient(Axis::Hard)];
-            edited.tap = reach(&latents.tap, &gradients, &self.metric, &[hard], look)?.z;
+            edited.tap = reach(&latents.tap, &gradients, &self.metric, &[hard], seen)?.z;
         }
         if asked(Axis::Slippery)
             && let Some(slippery) = target(Axis::Slippery)
@@ -212,8 +204,9 @@ impl LatentEditor<'_> {
         z: &Latent,
         shift: &Shift,
         axes: &[Axis],
+        look: &Look<'_>,
     ) -> Result<Option<Vec<f64>>, EditError> {
-        let attributes = self.attributes(&Latents::whole(*z).shifted(*shift))?;
+        let attributes = look.decoded(&Latents::whole(*z).shifted(*shift))?;
         let places = axes.iter().map(|&axis| self.scale.place(axis, &attributes));
         Ok(places.collect())
     }

@@ -2,6 +2,7 @@
 
 use super::{
     error::EditError,
+    look::Look,
     scale::Scale,
     solve::Metric,
     source::{FromLatents, decode},
@@ -10,7 +11,7 @@ use crate::{
     edit_memory::{Latents, Memory, remembered},
     emit::raise::raise,
     passes::reduce::Fidelity,
-    pipeline::{Pipeline, Request},
+    pipeline::Request,
     sources::prompt::PromptCompiler,
     views::preview,
 };
@@ -128,9 +129,6 @@ impl<'a> LatentEditor<'a> {
         latents: &Latents,
         request: &Request,
     ) -> Result<Attributes, EditError> {
-        let mut pipeline = Pipeline::default();
-        let texture = pipeline.converted(self.texture(latents)?, request)?;
-        let kept = pipeline.reduce(&texture, request.fidelity).texture;
-        Ok(attributes::of(&kept))
+        Look::new(self, request).kept(latents)
     }
 }

@@ -33,6 +33,7 @@ mod encode;
 mod error;
 mod explain;
 mod latent_editor;
+mod look;
 mod loudness;
 mod mix;
 mod report;

@@ -14,16 +14,17 @@ const SUFFIXES = { "normal.png": " normal.png", "height.png": " height.png", "pl
   "export.csv": " acceleration.csv", "listen.wav": ".wav" };
 
 /** { group: [{ ending, suffix, label, purpose }] }, of `about`. */
-export function kindsOf({ exports, files }) {
+export function kindsOf({ exports, files, opens }) {
   const known = new Set(Object.values(GROUPS).flat());
   const offered = new Map(exports.map((entry) => [entry.ending, entry]));
   const kind = (ending) => {
     const [label, purpose] = texts.files.kinds[ending] ?? texts.files.other(offered.get(ending).format);
     return { ending, suffix: SUFFIXES[ending] ?? `.${offered.get(ending)?.file_ending ?? ending}`, label, purpose };
   };
+  const isThere = (ending) => (files && !opens ? files.includes(ending) : !ending.startsWith("export.") || offered.has(ending));
   const others = [...offered.keys()].filter((ending) => !known.has(ending));
   return Object.fromEntries(Object.entries({ ...GROUPS, tools: [...GROUPS.tools, ...others] }).map(([group, endings]) =>
-    [group, endings.filter((ending) => files?.includes(ending) ?? (!ending.startsWith("export.") || offered.has(ending))).map(kind)]));
+    [group, endings.filter(isThere).map(kind)]));
 }
 
 /** The name of such a file: `wet ice.asp` gives `wet ice.png`. */

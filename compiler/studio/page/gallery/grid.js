@@ -30,7 +30,7 @@ export class Grid {
   #top = 0;
   #hidden = true;
 
-  /** `address(library, place)` is that of a picture; `pick(place)` takes a texture; `reached(place)` hears of the arrow keys. */
+  /** `address(library, place)` promises that of a picture; `pick(place)` takes a texture; `reached(place)` hears of the arrow keys. */
   constructor({ address, pick, reached }) {
     Object.assign(this, { address, pick, reached });
     this.element = element("div", { class: "cells", role: "listbox", tabindex: "0", "aria-label": texts.gallery.pictures },
@@ -137,7 +137,8 @@ export class Grid {
     this.#cells.set(index, cell);
     this.#place(cell, index);
     this.#mark(cell);
-    this.#thumbnails.load(image, this.address(this.#library, place));
+    const library = this.#library;
+    this.#thumbnails.load(image, () => this.address(library, place));
     return cell;
   }
 

@@ -8,7 +8,7 @@ export class Thumbnails {
   #waiting = new Map();
   #loading = new Set();
 
-  /** Gives an image its picture as soon as it is its turn. */
+  /** Gives an image its picture as soon as it is its turn; `address` promises where that is. */
   load(image, address) {
     this.#waiting.set(image, { address, timer: setTimeout(() => this.#ready(image), REST_MS) });
   }
@@ -36,12 +36,13 @@ export class Thumbnails {
       this.#loading.add(image);
       const end = (state) => () => {
         if (!this.#loading.delete(image)) return;
+        if (image.src.startsWith("blob:")) URL.revokeObjectURL(image.src);
         image.dataset.state = state;
         this.#next();
       };
       image.addEventListener("load", end("loaded"), { once: true });
       image.addEventListener("error", end("missing"), { once: true });
-      image.src = address;
+      address().then((found) => this.#loading.has(image) && (image.src = found), end("missing"));
     }
   }
 }

@@ -26,7 +26,7 @@ export function startTimeline({ server, state, session, loader }) {
   const shown = new Map();
   const item = (entry) => {
     if (!shown.has(entry)) {
-      const choose = element("button", { type: "button", class: "tile", onclick: () => session.show(entry) }, portrait(server, entry.texture));
+      const choose = element("button", { type: "button", class: "tile", "data-texture": entry.texture.id, onclick: () => session.show(entry) }, portrait(server, entry.texture));
       shown.set(entry, element("li", {}, choose));
     }
     return shown.get(entry);

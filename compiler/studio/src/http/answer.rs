@@ -136,6 +136,27 @@ impl Answer {
         }
     }
 
+    /// Its status as HTTP numbers it.
+    pub(crate) fn code(&self) -> u16 {
+        let number = self.status.line().split(' ').next();
+        number
+            .and_then(|number| number.parse().ok())
+            .unwrap_or_default()
+    }
+
+    /// The type of its body.
+    pub(crate) fn content_type(&self) -> &'static str {
+        self.content_type
+    }
+
+    /// Its body.
+    pub(crate) fn into_bytes(self) -> Vec<u8> {
+        match self.content {
+            Content::Owned(bytes) => bytes,
+            content => content.bytes().to_vec(),
+        }
+    }
+
     /// Sends it. `closes` says that no further request is read; `bare` leaves the body out, as for HEAD.
     ///
     /// # Errors

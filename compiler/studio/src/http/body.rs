@@ -3,21 +3,39 @@
 use super::{answer::Status, deadline::Timed, head::slow};
 use crate::error::ApiError;
 use asperity_io::shown::size;
-use std::io::{ErrorKind, Read, Write};
+use std::io::{self, ErrorKind, Read, Write};
 
 /// Bytes for which room is made before they have come.
 const AHEAD: u64 = 1 << 20;
 
 /// A body that may not have come yet.
 pub(crate) struct Body<'a, 's> {
-    /// The connection, with the deadline of the request.
-    stream: &'a mut Timed<'s>,
-    /// What came with the head.
-    buffer: &'a mut Vec<u8>,
+    from: Source<'a, 's>,
     /// Bytes as the head states them.
     length: u64,
-    expects_continue: bool,
     read: bool,
+}
+
+enum Source<'a, 's> {
+    Connection {
+        /// With the deadline of the request.
+        stream: &'a mut Timed<'s>,
+        /// What came with the head.
+        buffer: &'a mut Vec<u8>,
+        expects_continue: bool,
+    },
+    Memory(Vec<u8>),
+}
+
+impl From<Vec<u8>> for Body<'_, '_> {
+    /// A body of one who asks within the program.
+    fn from(bytes: Vec<u8>) -> Self {
+        Self {
+            length: bytes.len() as u64,
+            from: Source::Memory(bytes),
+            read: false,
+        }
+    }
 }
 
 impl<'a, 's> Body<'a, 's> {
@@ -28,10 +46,12 @@ impl<'a, 's> Body<'a, 's> {
         expects_continue: bool,
     ) -> Self {
         Self {
-            stream,
-            buffer,
+            from: Source::Connection {
+                stream,
+                buffer,
+                expects_continue,
+            },
             length,
-            expects_continue,
             read: false,
         }
     }
@@ -54,25 +74,41 @@ impl<'a, 's> Body<'a, 's> {
                 "give a smaller file or a shorter prompt",
             ));
         }
-        if self.expects_continue {
-            let go_on = b"HTTP/1.1 100 Continue\r\n\r\n";
-            self.stream.write_all(go_on).map_err(|e| ended(&e))?;
-        }
-        let mut bytes = Vec::with_capacity(length.min(AHEAD) as usize);
-        let came = (length as usize).min(self.buffer.len());
-        bytes.extend(self.buffer.drain(..came));
-        let rest = length - came as u64;
-        let more = Read::by_ref(self.stream).take(rest).read_to_end(&mut bytes);
-        more.map_err(|e| ended(&e))?;
-        if (bytes.len() as u64) < length {
-            return Err(ended(&ErrorKind::UnexpectedEof.into()));
-        }
+        let bytes = match &mut self.from {
+            Source::Memory(bytes) => std::mem::take(bytes),
+            Source::Connection {
+                stream,
+                buffer,
+                expects_continue,
+            } => received(stream, buffer, length, *expects_continue).map_err(|e| ended(&e))?,
+        };
         self.read = true;
         Ok(bytes)
     }
 }
 
-fn ended(error: &std::io::Error) -> ApiError {
+/// A body of `length` bytes, of which the first are in `buffer`.
+fn received(
+    stream: &mut Timed<'_>,
+    buffer: &mut Vec<u8>,
+    length: u64,
+    expects_continue: bool,
+) -> io::Result<Vec<u8>> {
+    if expects_continue {
+        stream.write_all(b"HTTP/1.1 100 Continue\r\n\r\n")?;
+    }
+    let mut bytes = Vec::with_capacity(length.min(AHEAD) as usize);
+    let came = (length as usize).min(buffer.len());
+    bytes.extend(buffer.drain(..came));
+    let rest = length - came as u64;
+    stream.take(rest).read_to_end(&mut bytes)?;
+    if (bytes.len() as u64) < length {
+        return Err(ErrorKind::UnexpectedEof.into());
+    }
+    Ok(bytes)
+}
+
+fn ended(error: &io::Error) -> ApiError {
     match error.kind() {
         ErrorKind::TimedOut => slow(),
         _ => ApiError::new(
