@@ -1,30 +1,104 @@
-// Draws the pictures of docs/studio.md:
+// Draws the pictures of the studio, `studio-STATE-light.png` and `-dark.png`, and the frames of the README's animation:
 //
-//   STUDIO_MODULES=…/node_modules node pictures.mjs ADDRESS CHROMIUM FOLDER
+//   STUDIO_MODULES=…/node_modules node pictures.mjs ADDRESS CHROMIUM FOLDER [FRAMES]
 //
-// ADDRESS is that of a running studio. Each picture comes in light and dark: `studio-desk` and `studio-plots`.
+// ADDRESS is that of a studio with a library of some dozens of textures. `docs/images/draw --studio` starts one.
+import { mkdirSync } from "node:fs";
 import { join } from "node:path";
 import { chromium } from "./chromium.mjs";
 
 const PROMPT = "rough abrasive sheet with gritty particles";
-const [address, executablePath, folder] = process.argv.slice(2);
+const SLOTS = ["wet ice", "cork", "soft velvet", "brushed steel, slightly waxy"];
+/** Frames of the animation, and the time between two, ms. */
+const FRAMES = 36;
+const FRAME_MS = 110;
+const [address, executablePath, folder, frames] = process.argv.slice(2);
 
-const browser = await chromium.launch({ executablePath, args: ["--autoplay-policy=no-user-gesture-required"] });
+const shown = (page, name) => page.waitForFunction((name) => document.querySelector("#surface-title").textContent === name
+  && document.getElementById("prompt-form").getAttribute("aria-busy") === "false", name);
+
+async function compile(page, prompt) {
+  await page.fill("#prompt", prompt);
+  await page.press("#prompt", "Enter");
+  await shown(page, prompt);
+}
+
+/** Each brings the page from the state before it to its own. */
+const STATES = {
+  start: async (page) => {
+    await page.waitForSelector(".cells [role=option]");
+    await page.click("#views label:first-child");
+  },
+  desk: async (page) => {
+    await compile(page, PROMPT);
+    await page.click("#sound-switch");
+    await page.click("#auto");
+    await page.waitForTimeout(3000);
+  },
+  // Plots are drawn where they are seen: all but the strip, above which a browser without a GPU keeps up.
+  plots: async (page) => {
+    await page.locator(".live").evaluate((live) => live.scrollIntoView());
+    await page.waitForTimeout(4000);
+  },
+  steering: async (page) => {
+    await page.evaluate(() => scrollTo(0, 0));
+    await page.click("#auto");
+    await page.fill("#words", "less gritty, more waxy");
+    await page.press("#words", "Enter");
+    await page.waitForFunction(() => document.querySelector("#words-understood").textContent);
+    await page.click(".mix summary");
+    await page.locator(".mix").evaluate((mix) => mix.scrollIntoView({ block: "end" }));
+  },
+  compare: async (page) => {
+    await page.click(".mix summary");
+    for (const [n, prompt] of SLOTS.entries()) {
+      await compile(page, prompt);
+      await page.locator("#compare .slot").nth(n).click();
+    }
+    await page.locator("#compare input[type=checkbox]").first().check();
+    await page.waitForTimeout(1500);
+  },
+  files: async (page) => {
+    await page.click("#take-button");
+    await page.waitForSelector(".kind");
+  },
+  gallery: async (page) => {
+    await page.keyboard.press("Escape");
+    await page.click("#views label:last-child");
+    await page.locator(".cells [role=option]").nth(7).click();
+    await page.waitForFunction(() => [...document.querySelectorAll(".cell img")].every(({ dataset }) => dataset.state === "loaded"));
+    await page.waitForTimeout(1000);
+  },
+  scatter: async (page) => {
+    await page.click(".modes label:nth-child(2)");
+    await page.waitForTimeout(1500);
+  },
+};
+
+async function animate(page) {
+  mkdirSync(frames, { recursive: true });
+  await STATES.start(page);
+  await STATES.desk(page);
+  const clip = { x: 0, y: 0, width: 1280, height: 800 };
+  for (let n = 0; n < FRAMES; n++) {
+    await page.screenshot({ path: join(frames, `${String(n).padStart(3, "0")}.png`), clip });
+    await page.waitForTimeout(FRAME_MS);
+  }
+}
+
+const browser = await chromium.launch({ executablePath, args: ["--autoplay-policy=no-user-gesture-required", "--no-sandbox"] });
 for (const colorScheme of ["light", "dark"]) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, colorScheme });
-  const path = (name) => join(folder, `studio-${name}-${colorScheme}.png`);
   await page.goto(address);
-  await page.fill("#prompt", PROMPT);
-  await page.keyboard.press("Enter");
-  await page.waitForFunction((prompt) => document.querySelector("#surface-title").textContent === prompt, PROMPT);
-  await page.click("#sound-switch");
-  await page.click("#auto");
-  await page.waitForTimeout(4000);
-  await page.screenshot({ path: path("desk") });
-  // Plots are drawn where they are seen: all but the strip, above which a browser without a GPU keeps up.
-  await page.locator(".live").evaluate((live) => live.scrollIntoView());
-  await page.waitForTimeout(4000);
-  await page.screenshot({ path: path("plots") });
+  for (const [name, reach] of Object.entries(STATES)) {
+    await reach(page);
+    await page.screenshot({ path: join(folder, `studio-${name}-${colorScheme}.png`) });
+  }
   await page.close();
+}
+if (frames) {
+  const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, colorScheme: "light" });
+  await page.goto(address);
+  await animate(page);
 }
 await browser.close();

@@ -43,9 +43,9 @@ export class Server {
     return this.#post("api/edit", { texture: texture.id, ...change }, signal);
   }
 
-  /** Between two textures: `a` at 0, `b` at 1. */
-  blend(a, b, t, signal) {
-    return this.#post("api/blend", { a: a.id, b: b.id, t }, signal);
+  /** Between two textures: `a` at 0, `b` at 1; a draft has no picture. */
+  blend(a, b, t, draft, signal) {
+    return this.#post("api/blend", { a: a.id, b: b.id, t, draft }, signal);
   }
 
   /** Taps of one texture, vibration of another, friction of a third. */

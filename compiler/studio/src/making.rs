@@ -42,8 +42,20 @@ pub(crate) fn compile(loaded: &Loaded, text: &str, seed: u64) -> Result<Texture,
     Texture::new(compiled.lowered.bytes, making, what).map_err(damaged)
 }
 
-/// Edits a texture, as `asperity edit`. A draft has no picture, as with `--no-preview`: drawing one takes longer than all
-/// else, and what is felt and verified is the same.
+/// A draft has no picture, as with `--no-preview`: drawing one takes longer than all else, and what is felt and verified
+/// is the same.
+fn options(draft: bool) -> MixOptions {
+    MixOptions {
+        preview: if draft {
+            MixPreview::None
+        } else {
+            MixPreview::Kept
+        },
+        ..MixOptions::default()
+    }
+}
+
+/// Edits a texture, as `asperity edit`.
 ///
 /// # Errors
 /// As the command.
@@ -55,16 +67,8 @@ pub(crate) fn edit(
 ) -> Result<Texture, ApiError> {
     let editor = loaded.editor();
     let asset = texture.parsed()?;
-    let options = MixOptions {
-        preview: if draft {
-            MixPreview::None
-        } else {
-            MixPreview::Kept
-        },
-        ..MixOptions::default()
-    };
     let mix = editor
-        .change(&asset, Some(&edit), &options)
+        .change(&asset, Some(&edit), &options(draft))
         .map_err(|e| ApiError::of(&e))?;
     let what = What::Edit {
         texture: texture.id().to_owned(),
@@ -78,15 +82,21 @@ pub(crate) fn edit(
 ///
 /// # Errors
 /// As the command.
-pub(crate) fn blend(loaded: &Loaded, [a, b]: [&Texture; 2], t: f64) -> Result<Texture, ApiError> {
+pub(crate) fn blend(
+    loaded: &Loaded,
+    [a, b]: [&Texture; 2],
+    t: f64,
+    draft: bool,
+) -> Result<Texture, ApiError> {
     let editor = loaded.editor();
     let mix = editor
-        .blend(&a.parsed()?, &b.parsed()?, t, &MixOptions::default())
+        .blend(&a.parsed()?, &b.parsed()?, t, &options(draft))
         .map_err(|e| ApiError::of(&e))?;
     let what = What::Blend {
         a: a.id().to_owned(),
         b: b.id().to_owned(),
         t,
+        draft,
     };
     mixed(&editor, mix, &[a, b], what)
 }

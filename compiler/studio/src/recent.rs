@@ -27,10 +27,13 @@ impl Recent {
         }
     }
 
-    /// The texture of this name.
+    /// The texture of this name, which counts as new: what drafts are made of is asked for again and again.
     pub(crate) fn get(&self, id: &str) -> Option<Arc<Texture>> {
-        let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.iter().find(|texture| texture.id() == id).cloned()
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let at = kept.iter().position(|texture| texture.id() == id)?;
+        let texture = kept.remove(at)?;
+        kept.push_back(Arc::clone(&texture));
+        Some(texture)
     }
 }
 
@@ -59,9 +62,9 @@ mod tests {
         recent.keep(named(MOST - 1));
         assert!(recent.get(first.id()).is_some(), "{MOST} fit");
         recent.keep(named(MOST));
-        assert!(recent.get(first.id()).is_none(), "the oldest goes");
-        let second = named(1);
-        assert!(recent.get(second.id()).is_some());
+        assert!(recent.get(first.id()).is_some(), "it was asked for");
+        assert!(recent.get(named(1).id()).is_none(), "the oldest goes");
+        assert!(recent.get(named(2).id()).is_some());
         assert!(recent.get("").is_none());
     }
 }

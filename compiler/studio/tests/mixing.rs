@@ -157,6 +157,19 @@ fn blends_compositions_and_encodings_have_the_bytes_of_the_commands() {
         editor.blend(&a, &c, 0.25, &options).expect("a blend"),
         "asperity blend silk.asp 'wet ice.asp' -t 0.25 -o 'silk – wet ice.asp'",
     );
+    let draft = made(
+        "api/blend",
+        &json!({ "a": silk["id"], "b": ice["id"], "t": 0.25, "draft": true }),
+    );
+    let plain = MixOptions {
+        preview: MixPreview::None,
+        ..MixOptions::default()
+    };
+    check(
+        &draft,
+        editor.blend(&a, &c, 0.25, &plain).expect("a blend"),
+        "asperity blend silk.asp 'wet ice.asp' -t 0.25 --no-preview -o 'silk – wet ice.asp'",
+    );
     let body = json!({ "tap": anvil["id"], "slide": silk["id"], "friction": ice["id"] });
     let composed = made("api/compose", &body);
     check(

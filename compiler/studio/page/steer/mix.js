@@ -86,20 +86,20 @@ export class Mix {
   }
 
   /** The blend as the controls are now, and the two that it lies between. */
-  #blend() {
+  #blend(draft) {
     const t = Number(this.#t.value);
     const sources = Promise.all(this.#blended.map((choice) => choice.texture()));
-    return { t, sources, make: async () => this.#parts.server.blend(...(await sources), t) };
+    return { t, sources, make: async () => this.#parts.server.blend(...(await sources), t, draft) };
   }
 
   #moves() {
     this.#say();
     this.#parts.state.set({ draft: true });
-    this.#live.hear(this.#key, this.#blend().make);
+    this.#live.hear(`draft ${this.#key}`, this.#blend(true).make);
   }
 
   #settles() {
-    const { t, sources, make } = this.#blend();
+    const { t, sources, make } = this.#blend(false);
     const how = { kind: "blend", t };
     sources.then(([a, b]) => Object.assign(how, { a, b }), () => {});
     return this.#live.settle(this.#key, make, how);

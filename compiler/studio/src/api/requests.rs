@@ -35,6 +35,8 @@ struct Blend {
     a: String,
     b: String,
     t: f64,
+    #[serde(default)]
+    draft: bool,
 }
 
 /// `POST api/compose`.
@@ -89,13 +91,15 @@ fn edit(studio: &Studio, bytes: &[u8]) -> Result<Arc<Texture>, ApiError> {
 }
 
 fn blend(studio: &Studio, bytes: &[u8]) -> Result<Arc<Texture>, ApiError> {
-    let Blend { a, b, t } = parsed(bytes, "{\"a\": ID, \"b\": ID, \"t\": NUMBER}")?;
+    const EXPECTED: &str =
+        "{\"a\": ID, \"b\": ID, \"t\": NUMBER}; \"draft\": true leaves the picture out";
+    let Blend { a, b, t, draft } = parsed(bytes, EXPECTED)?;
     if !(0.0..=1.0).contains(&t) {
         return Err(out_of_bounds("t", t, "from 0 to 1"));
     }
     let (a, b) = (studio.texture(&a)?, studio.texture(&b)?);
     // No command line takes −0.
-    studio.make(|loaded| making::blend(loaded, [&a, &b], t + 0.0))
+    studio.make(|loaded| making::blend(loaded, [&a, &b], t + 0.0, draft))
 }
 
 fn compose(studio: &Studio, bytes: &[u8]) -> Result<Arc<Texture>, ApiError> {

@@ -45,14 +45,19 @@ pub(crate) enum What {
     Extract { library: Opened, texture: String },
     /// `asperity compile`
     Compile { prompt: String, seed: u64 },
-    /// `asperity edit`; a draft has no picture
+    /// `asperity edit`; a draft of it, or of a blend, has no picture
     Edit {
         texture: String,
         edit: Edit,
         draft: bool,
     },
     /// `asperity blend`
-    Blend { a: String, b: String, t: f64 },
+    Blend {
+        a: String,
+        b: String,
+        t: f64,
+        draft: bool,
+    },
     /// `asperity compose`
     Compose {
         tap: String,
@@ -186,11 +191,12 @@ impl Step {
                     }
                     Edit::Words(words) => format!("--prompt {}", quoted(words)),
                 };
-                let picture = if *draft { " --no-preview" } else { "" };
+                let picture = without_picture(*draft);
                 format!("asperity edit {} {asked}{picture} {to}", file(texture))
             }
-            What::Blend { a, b, t } => {
-                format!("asperity blend {} {} -t {t} {to}", file(a), file(b))
+            What::Blend { a, b, t, draft } => {
+                let (a, b, picture) = (file(a), file(b), without_picture(*draft));
+                format!("asperity blend {a} {b} -t {t}{picture} {to}")
             }
             What::Compose {
                 tap,
@@ -203,6 +209,10 @@ impl Step {
             What::Encode { texture } => format!("asperity encode {} {to}", file(texture)),
         })
     }
+}
+
+fn without_picture(draft: bool) -> &'static str {
+    if draft { " --no-preview" } else { "" }
 }
 
 impl What {

@@ -69,6 +69,7 @@ fn each_line_writes_a_file_of_its_own_and_reads_those_before() {
         a: "e".into(),
         b: "f".into(),
         t: 0.25,
+        draft: false,
     };
     let blend = Recipe::new([Some(&edited), Some(&dropped)], "b", "cork – any", what).unwrap();
     let what = What::Compose {
@@ -103,6 +104,7 @@ fn no_line_overwrites_a_file_that_was_opened() {
         a: "f".into(),
         b: "g".into(),
         t: 0.5,
+        draft: false,
     };
     let other = file("g", "cork.asp");
     let blend = Recipe::new([Some(&dropped), Some(&other)], "b", "two", what).unwrap();
