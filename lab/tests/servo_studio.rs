@@ -59,7 +59,7 @@ fn the_page_sees_the_loop_and_swaps_its_texture() {
             break url.to_owned();
         }
     };
-    let device = &ask(&url, "GET", "api/about", b"")["device"];
+    let device = &ask(&url, "GET", "api/about.json", b"")["device"];
     assert_eq!(
         (&device["rate_hz"], &device["swaps"]),
         (&json!(1000), &json!(true))
