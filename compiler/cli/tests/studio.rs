@@ -210,6 +210,19 @@ fn the_page_of_a_library_is_written_once_and_replaces_nothing() {
         ],
         &["grit.asp", "not the studio's compiler", "build-module"],
     );
+    #[cfg(unix)]
+    refused(
+        folder,
+        &[
+            "studio",
+            "mine",
+            "--export",
+            "new",
+            "--compiler",
+            "/dev/zero",
+        ],
+        &["/dev/zero", "may have no end"],
+    );
     assert_eq!(entries(folder), ["mine", "page"]);
 }
 

@@ -1,6 +1,6 @@
 //! Where no library can be opened: in WebAssembly.
 
-use std::ffi::OsStr;
+use std::{convert::Infallible, ffi::OsStr};
 
 use thiserror::Error;
 
@@ -13,6 +13,7 @@ pub(crate) struct Refusal;
 #[derive(Debug)]
 pub(crate) struct Opened {
     pub(crate) version: String,
+    pub(crate) never: Infallible,
 }
 
 /// Opens nothing.

@@ -56,7 +56,7 @@ async function textures(visit, about) {
 }
 
 /** A page that shows, and makes nothing. */
-async function files_alone(visit, about) {
+async function filesAlone(visit, about) {
   const { page } = visit;
   for (const id of ["prompt", "open", "feel", "views", "history"]) {
     assert(!(await page.isVisible(`#${id}`)), `without a compiler there is no ${id}`);
@@ -134,7 +134,7 @@ try {
   await page.evaluate(axe);
   const about = JSON.parse(readFileSync(join(folder, "api/about.json"), "utf8"));
   await textures(visit, about);
-  await (about.compiler ? compiler(visit) : files_alone(visit, about));
+  await (about.compiler ? compiler(visit) : filesAlone(visit, about));
   assert(visit.errors.length === 0, `the console has no error${visit.errors.map((text) => `; ${text}`).join("")}`);
   assert(visit.foreign.length === 0, `nothing else is asked${visit.foreign.map((text) => `; ${text}`).join("")}`);
 

@@ -112,9 +112,10 @@ pub(crate) fn about(
         folder: start
             .and_then(|named| named.library.folder())
             .map(|folder| folder.display().to_string()),
-        words: match prompts.exist() {
-            true => suggestions(),
-            false => Vec::new(),
+        words: if prompts.exist() {
+            suggestions()
+        } else {
+            Vec::new()
         },
         // Those of a compiler that cannot be loaded are missed by nobody.
         sliders: prompts

@@ -256,9 +256,12 @@ impl Collection {
             // The name in the index counts.
             bytes = renamed(&bytes, name).map_err(|e| refused(&LowerError::from(e)))?;
         }
-        let shown = |path: &Path| match self.elsewhere {
-            true => self::name(path),
-            false => path.to_string_lossy().into_owned(),
+        let shown = |path: &Path| {
+            if self.elsewhere {
+                self::name(path)
+            } else {
+                path.to_string_lossy().into_owned()
+            }
         };
         let what = |id: &str| match &self.place {
             Place::Library(textures) => {

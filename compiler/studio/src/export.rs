@@ -10,6 +10,7 @@ use crate::{
     module::Module,
     page::{self, File},
     prompts::LoadPrompts,
+    shelf::Named,
     studio::Studio,
 };
 use asperity_io::{
@@ -77,8 +78,8 @@ impl Diagnostic for ExportError {
 /// Writes the page of a collection into a folder that is new or empty. The same collection gives the same bytes on
 /// every machine, wherever it lies. `done` is called after each texture, from any thread.
 ///
-/// With a module, the page also compiles, edits, opens and saves as the studio does; `load` gives the same prompt compiler
-/// here, for what the page says of each texture.
+/// With a module, the page also compiles, edits, opens and saves as the studio does; what loads the same prompt compiler
+/// here serves for what the page says of each texture.
 ///
 /// # Errors
 /// [`ExportError`] for the first texture that cannot be shown, and where a file cannot be written. Nothing of the page
@@ -91,6 +92,7 @@ pub fn export(
 ) -> Result<Exported, ExportError> {
     let writer = Writer {
         folder: WholeFolder::create(folder)?,
+        textures: Mutex::default(),
         files: AtomicUsize::new(0),
         bytes: AtomicU64::new(0),
     };
@@ -108,36 +110,14 @@ pub fn export(
     writer.write("api/about.json", &studio.about_exported(served))?;
     // The library that the studio was started with, which is there.
     if let Some(named) = studio.start() {
-        let (id, library) = (&named.id, &named.library);
-        let written = Mutex::new(HashSet::new());
         let ids = (0..textures).into_par_iter().map(|at| {
-            let fail = |error: ApiError| ExportError::Texture {
-                name: library.names().nth(at).unwrap_or_default().to_owned(),
-                error: error.error,
-                help: error.help.unwrap_or_default(),
-            };
-            let texture = library.texture(at).map_err(fail)?;
-            let shown = studio.shown(&texture);
-            writer.write(&format!("api/library/{id}/{at}.json"), shown.as_bytes())?;
-            let mut written = written.lock().unwrap_or_else(PoisonError::into_inner);
-            let is_new = written.insert(texture.id().to_owned());
-            drop(written);
-            // Textures that are the same but for their place share their files.
-            if is_new {
-                for ending in OFFERED.into_iter().chain([LOADED]) {
-                    let Some(file) = Download::of(ending) else {
-                        continue;
-                    };
-                    let bytes = file.bytes(&texture).map_err(fail)?;
-                    writer.write(&format!("api/texture/{}.{ending}", texture.id()), &bytes)?;
-                }
-            }
+            let id = writer.texture(&studio, &named, at)?;
             done();
-            Ok(texture.id().to_owned())
+            Ok(id)
         });
         let ids: Vec<String> = ids.collect::<Result<_, ExportError>>()?;
-        let columns = library.columns_with(id, &ids);
-        writer.write(&format!("api/library/{id}.json"), &columns)?;
+        let columns = named.library.columns_with(&named.id, &ids);
+        writer.write(&format!("api/library/{}.json", named.id), &columns)?;
     }
     writer.folder.commit()?;
     Ok(Exported {
@@ -149,11 +129,43 @@ pub fn export(
 
 struct Writer {
     folder: WholeFolder,
+    /// Textures whose files are there, or on their way.
+    textures: Mutex<HashSet<String>>,
     files: AtomicUsize,
     bytes: AtomicU64,
 }
 
 impl Writer {
+    /// Writes the texture at a place of a library: what the page gets when it picks it, and its files. Textures that are
+    /// the same but for their place share those. Gives what names the texture.
+    fn texture(&self, studio: &Studio, named: &Named, at: usize) -> Result<String, ExportError> {
+        let library = &named.library;
+        let fail = |error: ApiError| ExportError::Texture {
+            name: library.names().nth(at).unwrap_or_default().to_owned(),
+            error: error.error,
+            help: error.help.unwrap_or_default(),
+        };
+        let texture = library.texture(at).map_err(fail)?;
+        let shown = studio.shown(&texture);
+        self.write(
+            &format!("api/library/{}/{at}.json", named.id),
+            shown.as_bytes(),
+        )?;
+        let id = texture.id();
+        let mut textures = self.textures.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_new = textures.insert(id.to_owned());
+        drop(textures);
+        if is_new {
+            for ending in OFFERED.into_iter().chain([LOADED]) {
+                if let Some(file) = Download::of(ending) {
+                    let bytes = file.bytes(&texture).map_err(fail)?;
+                    self.write(&format!("api/texture/{id}.{ending}"), &bytes)?;
+                }
+            }
+        }
+        Ok(id.to_owned())
+    }
+
     fn write(&self, name: &str, bytes: &[u8]) -> Result<(), OutputError> {
         self.folder.write(name, bytes)?;
         self.files.fetch_add(1, Ordering::Relaxed);

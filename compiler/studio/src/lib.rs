@@ -50,6 +50,7 @@ mod page;
 mod prompts;
 mod recent;
 mod recipe;
+mod reply;
 mod row;
 mod server;
 mod shelf;
@@ -58,7 +59,6 @@ mod texture;
 mod thumbnails;
 mod token;
 mod turns;
-mod within;
 mod worklet_asset;
 
 /// The version of page, interface and module, which belong together.
@@ -70,6 +70,6 @@ pub use device::{LiveDevice, LiveStatus, LiveTick, Percentiles, Wanted};
 pub use export::{ExportError, Exported, export};
 pub use module::{Module, ModuleError};
 pub use prompts::LoadPrompts;
+pub use reply::Reply;
 pub use server::{BindError, Limits, Server, Stopper};
 pub use studio::Studio;
-pub use within::Reply;

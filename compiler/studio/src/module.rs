@@ -1,11 +1,11 @@
 //! The compiler as a module of WebAssembly, for exported pages.
 
 use crate::VERSION;
-use asperity_io::{diagnostic::Diagnostic, system};
-use std::{
-    fs, io,
-    path::{Path, PathBuf},
+use asperity_io::{
+    diagnostic::Diagnostic,
+    input::{self, InputError, Kind},
 };
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// What a module of WebAssembly begins with, in its first version.
@@ -21,13 +21,8 @@ pub struct Module(Vec<u8>);
 #[derive(Debug, Error)]
 pub enum ModuleError {
     /// It cannot be read.
-    #[error("{path}: cannot read it", path = path.display())]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    Input(#[from] InputError),
     /// Another module, or none.
     #[error("{path}: not the studio's compiler", path = .0.display())]
     Other(PathBuf),
@@ -44,9 +39,7 @@ pub enum ModuleError {
 impl Diagnostic for ModuleError {
     fn remedy(&self) -> String {
         match self {
-            Self::Unreadable { source, .. } => system::remedy(source)
-                .unwrap_or("check the path and its permissions")
-                .into(),
+            Self::Input(error) => error.remedy(),
             Self::Other(_) | Self::Version { .. } => {
                 "give the file that `compiler/studio/build-module` writes, built of this version"
                     .into()
@@ -61,9 +54,9 @@ impl Module {
     /// # Errors
     /// [`ModuleError`] for a file that is none, or of another version than the page.
     pub fn open(path: &Path) -> Result<Self, ModuleError> {
-        let bytes = fs::read(path).map_err(|source| ModuleError::Unreadable {
-            path: path.to_owned(),
-            source,
+        let bytes = input::read(path, Kind::StudioModule).map_err(|problem| InputError {
+            file: path.to_owned(),
+            problem,
         })?;
         match version(&bytes) {
             Some(version) if version == VERSION.as_bytes() => Ok(Self(bytes)),

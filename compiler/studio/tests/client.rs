@@ -18,7 +18,7 @@ const PATIENCE: Duration = Duration::from_secs(30);
 pub(crate) static SHARED: LazyLock<Site> = LazyLock::new(|| Site::start(None, Limits::default()));
 
 /// The prompt compiler of the command.
-fn embedded() -> Result<PromptCompiler, Failure> {
+pub(crate) fn embedded() -> Result<PromptCompiler, Failure> {
     Ok(PromptCompiler::embedded(&Backend::Portable)?)
 }
 

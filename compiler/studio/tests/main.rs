@@ -10,4 +10,5 @@ mod gallery;
 mod hostile_files;
 mod mixing;
 mod refusals;
+mod reply;
 mod waits;

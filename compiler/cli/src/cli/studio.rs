@@ -10,7 +10,8 @@ only under that address, which holds a secret: whoever has it can use the studio
 `asperity compile` does, to the same bytes. Ctrl-C ends it.
 
 With --export, the page of a library becomes static files for any web server: to see, hear and stroke its textures without \
-Asperity. With --compiler as well, the page also compiles prompts, in a worker. Browsers play sound only for pages that come over HTTPS or from the same machine.
+Asperity. With --compiler as well, the page also compiles prompts, in a worker. Browsers play sound only for pages \
+that come over HTTPS or from the same machine.
 
 Examples:
   asperity studio

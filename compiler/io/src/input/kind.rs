@@ -44,11 +44,13 @@ pub enum Kind {
     DiffusionConfig,
     /// A network in a diffusion folder, ONNX, that the portable engine reads.
     DiffusionNetwork,
+    /// The studio's compiler, WebAssembly.
+    StudioModule,
 }
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::Asset,
         Self::Hatt,
         Self::Model,
@@ -66,6 +68,7 @@ impl Kind {
         Self::Vocabulary,
         Self::DiffusionConfig,
         Self::DiffusionNetwork,
+        Self::StudioModule,
     ];
 
     /// The most bytes that are read.
@@ -81,6 +84,7 @@ impl Kind {
             | Self::Vocabulary => 16 * MIB,
             Self::Scene | Self::Settings | Self::Counts | Self::DiffusionConfig => MIB,
             Self::Corpus => 4 * MIB,
+            Self::StudioModule => 128 * MIB,
             // A log of a day takes half of it.
             Self::Trajectory | Self::Log => 1024 * MIB,
             // The text tower of CLIP ViT-L/14 takes 472 MiB.
@@ -135,6 +139,7 @@ impl Kind {
             Self::Vocabulary => "give the vocabulary that belongs to the text encoder",
             Self::DiffusionConfig => "give a folder that `optimum-cli export onnx` wrote",
             Self::DiffusionNetwork => "leave --diffusion-backend out, for ONNX Runtime",
+            Self::StudioModule => "give the file that `compiler/studio/build-module` wrote",
         }
     }
 }
@@ -159,6 +164,7 @@ impl fmt::Display for Kind {
             Self::Vocabulary => "a vocabulary",
             Self::DiffusionConfig => "a configuration of a diffusion folder",
             Self::DiffusionNetwork => "a diffusion network on the portable engine",
+            Self::StudioModule => "the studio's compiler",
         })
     }
 }

@@ -54,16 +54,25 @@ impl LatentEditor<'_> {
         sliders: &Sliders,
         request: &Request,
     ) -> Result<Latents, EditError> {
+        self.searched(latents, sliders, &Look::new(self, request))
+    }
+
+    /// The same, with looks that may know these latents already.
+    pub(super) fn searched(
+        &self,
+        latents: &Latents,
+        sliders: &Sliders,
+        look: &Look<'_>,
+    ) -> Result<Latents, EditError> {
         if sliders.are_still() {
             return Ok(*latents);
         }
-        let look = Look::new(self, request);
         let before = look.kept(latents)?;
-        let through = self.through(latents, sliders, &look, &before)?;
-        let (missing, edited) = self.closed(through, sliders, &look, &before)?;
+        let through = self.through(latents, sliders, look, &before)?;
+        let (missing, edited) = self.closed(through, sliders, look, &before)?;
         let sharp = missing[Axis::Sharp as usize].abs();
         if sharp > SHARP && sliders.sharper == 0.0 {
-            let (plain, shifted) = self.closed(*latents, sliders, &look, &before)?;
+            let (plain, shifted) = self.closed(*latents, sliders, look, &before)?;
             if worst(&plain) < worst(&missing) {
                 return Ok(shifted);
             }

@@ -1,6 +1,6 @@
 //! Edits, along the sliders or in words: "less gritty, more waxy".
 
-use super::{error::EditError, latent_editor::LatentEditor, scale::Scale};
+use super::{error::EditError, latent_editor::LatentEditor, look::Look, scale::Scale};
 use crate::{
     edit_memory::{Axis, Latents, Sliders},
     pipeline::Request,
@@ -83,7 +83,8 @@ impl LatentEditor<'_> {
         if asked.is_nothing() {
             return Err(EditError::NotUnderstood(text.to_owned()));
         }
-        let base = self.kept_attributes(latents, request)?;
+        let look = Look::new(self, request);
+        let base = look.kept(latents)?;
         let mut start = *latents;
         if let Some(towards) = &asked.towards {
             let projection = self.prompt_compiler.project(&towards.thing)?;
@@ -91,11 +92,11 @@ impl LatentEditor<'_> {
             let thing = Latents::whole(meaning.z).shifted(meaning.shift);
             start = Latents::between(latents, &thing, towards.share);
         }
-        let now = self.kept_attributes(&start, request)?;
+        let now = look.kept(&start)?;
         let shift = from_base(&base, &now, &asked.changes);
         let sliders = steps(&self.scale, &now, &shift);
         Ok(Worded {
-            latents: self.edited(&start, &sliders, request)?,
+            latents: self.searched(&start, &sliders, &look)?,
             sliders,
             towards: asked.towards,
             unread: asked.unread,

@@ -42,7 +42,10 @@ export class Thumbnails {
       };
       image.addEventListener("load", end("loaded"), { once: true });
       image.addEventListener("error", end("missing"), { once: true });
-      address().then((found) => this.#loading.has(image) && (image.src = found), end("missing"));
+      address().then((found) => {
+        if (this.#loading.has(image)) image.src = found;
+        else if (found.startsWith("blob:")) URL.revokeObjectURL(found);
+      }, end("missing"));
     }
   }
 }
