@@ -198,31 +198,19 @@ fn the_page_of_a_library_is_written_once_and_replaces_nothing() {
     ] {
         assert_eq!(asperity(folder, wrong).status.code(), Some(2), "{wrong:?}");
     }
-    refused(
-        folder,
-        &[
-            "studio",
-            "mine",
-            "--export",
-            "new",
-            "--compiler",
-            "mine/grit.asp",
-        ],
-        &["grit.asp", "not the studio's compiler", "build-module"],
-    );
-    #[cfg(unix)]
-    refused(
-        folder,
-        &[
-            "studio",
-            "mine",
-            "--export",
-            "new",
-            "--compiler",
-            "/dev/zero",
-        ],
-        &["/dev/zero", "may have no end"],
-    );
+    fs::write(folder.join("mine/notes.txt"), "no module").expect("room");
+    for (file, named) in [
+        (
+            "mine/notes.txt",
+            ["not the studio's compiler", "build-module"],
+        ),
+        ("mine/grit.asp", ["an asset", "not the studio's compiler"]),
+        #[cfg(unix)]
+        ("/dev/zero", ["/dev/zero", "may have no end"]),
+    ] {
+        let command = ["studio", "mine", "--export", "new", "--compiler", file];
+        refused(folder, &command, &named);
+    }
     assert_eq!(entries(folder), ["mine", "page"]);
 }
 
