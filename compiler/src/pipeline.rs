@@ -42,7 +42,7 @@ use crate::{
     views::preview,
 };
 use asperity_formats::Asset;
-use asperity_texture::model::TextureModel;
+use asperity_texture::model::{ModelGrid, TextureModel};
 
 /// Fractions of the way to white noise that are tried in turn on a texture that rings.
 const STABILISED: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
@@ -149,7 +149,7 @@ impl Pipeline {
         beside: &Beside<'_>,
     ) -> Result<Passed, PipelineError> {
         whole.provenance.fidelity = request.fidelity.to_string();
-        whole = self.converted(whole, request)?;
+        whole.grid = self.converted(whole.grid, request)?;
         if ringing == Ringing::Refused {
             return self.attempt(whole, 0.0, request, beside);
         }
@@ -200,35 +200,30 @@ impl Pipeline {
         })
     }
 
-    /// The texture at the rate that is asked for.
+    /// The grid at the rate that is asked for.
     pub(crate) fn converted(
         &mut self,
-        texture: TextureModel,
+        grid: ModelGrid,
         request: &Request,
-    ) -> Result<TextureModel, PipelineError> {
-        let from_hz = texture.grid.sample_rate_hz;
+    ) -> Result<ModelGrid, PipelineError> {
+        let from_hz = grid.sample_rate_hz;
         let Some(to_hz) = request.conversion(from_hz) else {
-            return Ok(texture);
+            return Ok(grid);
         };
-        self.rerate(texture, to_hz)
+        self.rerate(&grid, to_hz)
             .map_err(|error| match request.rate_hz {
                 Some(_) => error,
                 None => PipelineError::ServoRate { from_hz, to_hz },
             })
     }
 
-    /// The texture with its models at another rate.
+    /// The grid with its models at another rate.
     ///
     /// # Errors
     /// [`PipelineError::Rate`] for a rate that the models cannot have.
-    pub fn rerate(
-        &mut self,
-        mut texture: TextureModel,
-        rate_hz: f64,
-    ) -> Result<TextureModel, PipelineError> {
-        let grid = self.run(Pass::Rerate, || rerate::rerate(&texture.grid, rate_hz));
-        texture.grid = grid.ok_or(PipelineError::Rate(rate_hz))?;
-        Ok(texture)
+    pub fn rerate(&mut self, grid: &ModelGrid, rate_hz: f64) -> Result<ModelGrid, PipelineError> {
+        let rerated = self.run(Pass::Rerate, || rerate::rerate(grid, rate_hz));
+        rerated.ok_or(PipelineError::Rate(rate_hz))
     }
 
     /// The texture with its models moved this fraction of the way to white noise.

@@ -1,19 +1,21 @@
 //! Edits in the latent do what their sliders say, over random textures of the shipped model.
 
 use asperity::{
-    attributes::Attributes,
+    attributes::{self, Attributes},
     compiled::Compiled,
     driver,
     edit::{AXES, Axis, History, LatentEditor, Latents, Sliders},
     inference::Backend,
     learned::Latent,
-    pipeline::Request,
+    model::shift::Shift,
+    pipeline::{Pipeline, Request},
     prompt::PromptCompiler,
-    reduce::Fidelity,
+    reduce::{Fidelity, reduce},
     sources::{Tools, latents::FromLatents},
 };
 use asperity_formats::Asset;
 use asperity_tests::{figures, oracle, size::sized_or};
+
 use rand_core::{Rng as _, SeedableRng as _};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rayon::prelude::*;
@@ -63,6 +65,44 @@ fn of_bytes(asset: &[u8]) -> Attributes {
         sharp_hz: Some(found.sharp_hz),
         hard_hz: Some(found.hard_hz),
         mu: found.mu,
+    }
+}
+
+/// A search looks at the parts of a texture one by one, and sees what the whole texture has, to the bit.
+#[test]
+fn attributes_of_parts_are_those_of_the_whole_texture() {
+    let editor = LatentEditor::new(&PROMPTS);
+    let [a, b, c] = [0, 1, 2].map(|n| textures()[n]);
+    let shift = Shift {
+        rough_db: 4.0,
+        slippery: 0.2,
+        hard: -0.3,
+    };
+    for latents in [
+        a,
+        b.shifted(shift),
+        Latents::composed(&a, &b, &c.shifted(shift)),
+    ] {
+        for fidelity in [Fidelity::Full, Fidelity::Auto, Fidelity::Order(9)] {
+            for rate_hz in [None, Some(2000.0)] {
+                let request = Request {
+                    fidelity,
+                    rate_hz,
+                    ..Request::default()
+                };
+                let mut whole = editor.texture(&latents).unwrap();
+                assert_eq!(editor.attributes(&latents).unwrap(), attributes::of(&whole));
+                if let Some(rate_hz) = rate_hz {
+                    whole.grid = Pipeline::default().rerate(&whole.grid, rate_hz).unwrap();
+                }
+                let kept = reduce(&whole, fidelity).texture;
+                assert_eq!(
+                    editor.kept_attributes(&latents, &request).unwrap(),
+                    attributes::of(&kept),
+                    "{fidelity} {rate_hz:?}"
+                );
+            }
+        }
     }
 }
 

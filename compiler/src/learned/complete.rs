@@ -33,9 +33,8 @@ pub fn taps_of_grid(
 ) -> Result<TapBank, ModelError> {
     let description = model.description();
     let z = model.encode(Present::Ar(&ar_channels(&description.grid, grid)))?;
-    let decoded = model.decode(&z)?;
-    let limit_m_s2 = gains.f_max_n / gains.effective_mass_kg;
-    Ok(texture::taps(description, &decoded, limit_m_s2))
+    let decoded = model.decode_taps(&z)?;
+    Ok(texture::taps(description, &decoded, gains))
 }
 
 /// An AR grid, edge models included, decoded from a tap bank.
@@ -45,7 +44,7 @@ pub fn taps_of_grid(
 pub fn grid_of_taps(model: &LearnedModel, taps: &TapBank) -> Result<ModelGrid, ModelError> {
     let description = model.description();
     let z = model.encode(Present::Taps(&tap_channels(&description.taps, taps)))?;
-    Ok(texture::grid(&description.grid, &model.decode(&z)?))
+    Ok(texture::grid(&description.grid, &model.decode_grid(&z)?))
 }
 
 /// What the AR encoder sees of a grid: 21 LSFs and the level in every bin.

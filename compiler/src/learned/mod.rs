@@ -20,4 +20,4 @@ pub mod texture;
 pub use certainty::Certainty;
 pub use error::ModelError;
 pub use files::Files;
-pub use model::{Decoded, Latent, LearnedModel, Present, Projected};
+pub use model::{Decoded, DecodedGrid, Latent, LearnedModel, Present, Projected};

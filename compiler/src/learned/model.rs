@@ -35,15 +35,22 @@ pub struct Projected {
     pub familiarity: f32,
 }
 
-/// What a latent decodes to, bins and traces in the order of the description.
+/// What a latent decodes to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decoded {
+    /// Of sliding.
+    pub grid: DecodedGrid,
+    /// Traces, m/s², `speeds × samples`, in the order of the description.
+    pub taps_m_s2: Vec<f32>,
+}
+
+/// What a latent decodes to of sliding, bins in the order of the description.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DecodedGrid {
     /// LSFs, rad, `bins × order`.
     pub lsf_rad: Vec<f32>,
     /// RMS of the vibration in every bin, dB re 1 m/s².
     pub level_db: Vec<f32>,
-    /// Traces, m/s², `speeds × samples`.
-    pub taps_m_s2: Vec<f32>,
 }
 
 /// Which modalities an encoder is given; the other is decoded from the latent.
@@ -219,35 +226,55 @@ impl LearnedModel {
         Ok(all)
     }
 
+    /// What [`decode`](Self::decode) gives of sliding.
+    ///
+    /// # Errors
+    /// As [`decode`](Self::decode).
+    pub fn decode_grid(&self, z: &Latent) -> Result<DecodedGrid, ModelError> {
+        self.decoded_grids(&bounded(std::slice::from_ref(z)))
+            .map(|mut all| all.remove(0))
+    }
+
+    /// What [`decode`](Self::decode) gives of tapping: traces, m/s², `speeds × samples`.
+    ///
+    /// # Errors
+    /// As [`decode`](Self::decode).
+    pub fn decode_taps(&self, z: &Latent) -> Result<Vec<f32>, ModelError> {
+        self.decoded_taps(&bounded(std::slice::from_ref(z)))
+            .map(|mut all| all.remove(0))
+    }
+
     fn decoded(&self, latents: &[Latent]) -> Result<Vec<Decoded>, ModelError> {
-        let count = latents.len();
-        let z: Vec<f32> = latents
-            .as_flattened()
-            .iter()
-            .map(|x| if x.is_nan() { 0.0 } else { x.clamp(-1e3, 1e3) })
-            .collect();
-        let grid = &self.description.grid;
-        let bins = grid.speeds_mm_s.len();
-        let (file, shape) = ("ar_decoder.onnx", [count, LATENT]);
-        let outputs = run(file, self.ar_decoder.as_ref(), &[("z", &shape, &z)])?;
-        let lsf_rad = take(file, &outputs, "lsf_rad", count * bins * grid.order)?;
-        let level_db = take(file, &outputs, "level_db", count * bins)?;
-        let taps = &self.description.taps;
-        let file = "tap_decoder.onnx";
-        let outputs = run(file, self.tap_decoder.as_ref(), &[("z", &shape, &z)])?;
-        let samples = taps.speeds_m_s.len() * taps.samples;
-        let taps_m_s2 = take(file, &outputs, "taps_m_s2", count * samples)?;
-        let part = |all: &[f32], n: usize| {
-            let size = all.len() / count;
-            all[n * size..(n + 1) * size].to_vec()
-        };
-        Ok((0..count)
-            .map(|n| Decoded {
-                lsf_rad: part(&lsf_rad, n),
-                level_db: part(&level_db, n),
-                taps_m_s2: part(&taps_m_s2, n),
-            })
+        let z = bounded(latents);
+        let grids = self.decoded_grids(&z)?.into_iter();
+        let decoded = grids.zip(self.decoded_taps(&z)?);
+        Ok(decoded
+            .map(|(grid, taps_m_s2)| Decoded { grid, taps_m_s2 })
             .collect())
+    }
+
+    fn decoded_grids(&self, z: &[f32]) -> Result<Vec<DecodedGrid>, ModelError> {
+        const FILE: &str = "ar_decoder.onnx";
+        let grid = &self.description.grid;
+        let (count, bins) = (z.len() / LATENT, grid.speeds_mm_s.len());
+        let inputs: [Input<'_>; 1] = [("z", &[count, LATENT], z)];
+        let outputs = run(FILE, self.ar_decoder.as_ref(), &inputs)?;
+        let lsf_rad = take(FILE, &outputs, "lsf_rad", count * bins * grid.order)?;
+        let level_db = take(FILE, &outputs, "level_db", count * bins)?;
+        let rows = rows(&lsf_rad, count).zip(rows(&level_db, count));
+        Ok(rows
+            .map(|(lsf_rad, level_db)| DecodedGrid { lsf_rad, level_db })
+            .collect())
+    }
+
+    fn decoded_taps(&self, z: &[f32]) -> Result<Vec<Vec<f32>>, ModelError> {
+        const FILE: &str = "tap_decoder.onnx";
+        let taps = &self.description.taps;
+        let (count, samples) = (z.len() / LATENT, taps.speeds_m_s.len() * taps.samples);
+        let inputs: [Input<'_>; 1] = [("z", &[count, LATENT], z)];
+        let outputs = run(FILE, self.tap_decoder.as_ref(), &inputs)?;
+        let taps_m_s2 = take(FILE, &outputs, "taps_m_s2", count * samples)?;
+        Ok(rows(&taps_m_s2, count).collect())
     }
 
     /// The mean of the posterior, given the modalities that are present.
@@ -301,16 +328,32 @@ fn latent(values: &[f32]) -> Latent {
     std::array::from_fn(|k| values[k])
 }
 
+/// Latents one after the other, as decoders are given them.
+fn bounded(latents: &[Latent]) -> Vec<f32> {
+    let values = latents.as_flattened().iter();
+    values
+        .map(|x| if x.is_nan() { 0.0 } else { x.clamp(-1e3, 1e3) })
+        .collect()
+}
+
+/// The equal parts of a batch.
+fn rows(values: &[f32], count: usize) -> impl Iterator<Item = Vec<f32>> {
+    values.chunks(values.len() / count).map(<[f32]>::to_vec)
+}
+
 // Running a network, and distrusting what comes out.
 
-/// Runs a network on inputs, each with a name, a shape and its numbers.
+/// Name, shape and numbers.
+type Input<'a> = (&'a str, &'a [usize], &'a [f32]);
+
+/// Runs a network.
 ///
 /// # Errors
 /// [`ModelError::Network`] with its file.
 fn run(
     file: &str,
     session: &dyn Session,
-    inputs: &[(&str, &[usize], &[f32])],
+    inputs: &[Input<'_>],
 ) -> Result<Vec<(String, Tensor)>, ModelError> {
     let tensors: Vec<(&str, Tensor)> = inputs
         .iter()

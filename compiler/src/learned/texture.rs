@@ -4,13 +4,13 @@ use super::{
     description::{GridDescription, ModelDescription},
     edges,
     friction::{self, Neighbour},
-    model::{Decoded, Latent},
+    model::{Decoded, DecodedGrid, Latent},
 };
 use crate::passes::triangulate;
 use asperity_texture::{
     model::{
-        Friction, FrictionAnchor, GridVertex, ModelGrid, Numerator, Provenance, TapBank, TapTrace,
-        TextureModel, VertexKind, Wall, defaults,
+        Friction, FrictionAnchor, Gains, GridVertex, ModelGrid, Numerator, Provenance, TapBank,
+        TapTrace, TextureModel, VertexKind, Wall, defaults,
     },
     signal::{level::nyquist_rms, lsf},
 };
@@ -48,12 +48,8 @@ pub fn build(
     let gains = defaults::gains();
     let texture = TextureModel {
         name,
-        grid: grid(&description.grid, decoded),
-        taps: taps(
-            description,
-            decoded,
-            gains.f_max_n / gains.effective_mass_kg,
-        ),
+        grid: grid(&description.grid, &decoded.grid),
+        taps: taps(description, &decoded.taps_m_s2, &gains),
         friction: Friction {
             mu: friction::mu(&neighbours, &description.anchors),
             anchors: neighbours
@@ -81,7 +77,7 @@ pub fn build(
 
 /// The AR grid of decoded parameters, with its edge models.
 #[must_use]
-pub fn grid(grid: &GridDescription, decoded: &Decoded) -> ModelGrid {
+pub fn grid(grid: &GridDescription, decoded: &DecodedGrid) -> ModelGrid {
     let interior = (0..grid.speeds_mm_s.len())
         .map(|bin| {
             let raw = &decoded.lsf_rad[bin * grid.order..(bin + 1) * grid.order];
@@ -113,17 +109,17 @@ pub fn grid(grid: &GridDescription, decoded: &Decoded) -> ModelGrid {
     }
 }
 
-/// The tap bank of decoded parameters, within ±`limit_m_s2`.
+/// The tap bank of decoded traces, m/s², `speeds × samples`, within what a device of these gains can give.
 #[must_use]
-pub fn taps(description: &ModelDescription, decoded: &Decoded, limit_m_s2: f64) -> TapBank {
+pub fn taps(description: &ModelDescription, taps_m_s2: &[f32], gains: &Gains) -> TapBank {
     let taps = &description.taps;
-    let limit = TAP_SHARE * limit_m_s2;
+    let limit = TAP_SHARE * (gains.f_max_n / gains.effective_mass_kg);
     TapBank {
         sample_rate_hz: taps.sample_rate_hz,
         traces: taps
             .speeds_m_s
             .iter()
-            .zip(decoded.taps_m_s2.chunks(taps.samples))
+            .zip(taps_m_s2.chunks(taps.samples))
             .map(|(&speed_m_s, trace)| TapTrace {
                 speed_m_s,
                 accel_m_s2: trace

@@ -3,7 +3,7 @@
 use asperity::{
     attributes::Meter,
     learned::{
-        Decoded,
+        DecodedGrid,
         description::{GridDescription, ModelDescription},
         texture,
     },
@@ -62,10 +62,9 @@ pub(crate) struct Attributes {
 
 /// The attributes of an instance; zero where something is silent.
 pub(crate) fn of(instance: &Instance, layout: &Layout) -> Attributes {
-    let decoded = Decoded {
+    let decoded = DecodedGrid {
         lsf_rad: instance.lsf_rad.as_flattened().to_vec(),
         level_db: instance.level_db.to_vec(),
-        taps_m_s2: Vec::new(),
     };
     let vibration = Meter::default().vibration(&texture::grid(&layout.grid, &decoded));
     let fastest = instance.taps_m_s2[TAPS - 1].map(f64::from);

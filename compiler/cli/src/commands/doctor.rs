@@ -73,7 +73,7 @@ fn runs(model: &LearnedModel) -> Result<(), ModelError> {
     let width = description.text_encoder.width;
     let vector = vec![1.0 / (width as f32).sqrt(); width];
     let z = model.project(&vector)?.z;
-    let taps = model.decode(&z)?.taps_m_s2;
+    let taps = model.decode_taps(&z)?;
     model.encode(Present::Taps(&taps)).map(drop)
 }
 

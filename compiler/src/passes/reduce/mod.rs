@@ -25,7 +25,7 @@ pub mod vertices;
 
 pub use budget::{BUDGET_DB, Reference};
 
-use asperity_texture::model::{ModelGrid, Numerator, TextureModel};
+use asperity_texture::model::{ModelGrid, Numerator, TapBank, TextureModel};
 use order::Fits;
 use serde::Serialize;
 use std::{fmt, str::FromStr};
@@ -137,24 +137,10 @@ pub struct Reduction {
 #[must_use]
 pub fn reduce(texture: &TextureModel, fidelity: Fidelity) -> Reduction {
     let mut kept = texture.clone();
-    let reference = (fidelity != Fidelity::Full)
-        .then(|| Reference::new(&texture.grid))
-        .flatten();
     let mut distance = (0.0, 0.0);
-    if let Some(reference) = reference {
-        match fidelity {
-            Fidelity::Full => {}
-            Fidelity::Order(order) => {
-                if let Some(grid) = with_order(&texture.grid, order) {
-                    kept.grid = grid;
-                }
-            }
-            Fidelity::Auto => {
-                kept.grid = least_order(&texture.grid, &reference);
-                kept.grid = vertices::fewest(&kept.grid, &reference);
-                kept.taps = taps::audible(&texture.taps);
-            }
-        }
+    if let Some(reference) = reference(&texture.grid, fidelity) {
+        kept.grid = kept_grid(&texture.grid, &reference, fidelity);
+        kept.taps = reduce_taps(&texture.taps, fidelity);
         distance = reference
             .distances(&kept.grid)
             .map_or(distance, |d| d.summary());
@@ -163,6 +149,39 @@ pub fn reduce(texture: &TextureModel, fidelity: Fidelity) -> Reduction {
     Reduction {
         texture: kept,
         report,
+    }
+}
+
+/// The grid that [`reduce`] keeps, whatever its taps.
+#[must_use]
+pub fn reduce_grid(grid: &ModelGrid, fidelity: Fidelity) -> ModelGrid {
+    reference(grid, fidelity).map_or_else(
+        || grid.clone(),
+        |reference| kept_grid(grid, &reference, fidelity),
+    )
+}
+
+/// The taps that [`reduce`] keeps of a texture whose grid is tiled.
+#[must_use]
+pub fn reduce_taps(bank: &TapBank, fidelity: Fidelity) -> TapBank {
+    match fidelity {
+        Fidelity::Full | Fidelity::Order(_) => bank.clone(),
+        Fidelity::Auto => taps::audible(bank),
+    }
+}
+
+/// What a reduced grid is compared with; nothing where everything is kept.
+fn reference(grid: &ModelGrid, fidelity: Fidelity) -> Option<Reference<'_>> {
+    (fidelity != Fidelity::Full)
+        .then(|| Reference::new(grid))
+        .flatten()
+}
+
+fn kept_grid(grid: &ModelGrid, reference: &Reference<'_>, fidelity: Fidelity) -> ModelGrid {
+    match fidelity {
+        Fidelity::Full => grid.clone(),
+        Fidelity::Order(order) => with_order(grid, order).unwrap_or_else(|| grid.clone()),
+        Fidelity::Auto => vertices::fewest(&least_order(grid, reference), reference),
     }
 }
 

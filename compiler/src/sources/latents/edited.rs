@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     edit_memory::{AXES, Axis, Latents, Sliders},
-    learned::{Latent, friction},
+    learned::Latent,
     pipeline::Request,
 };
 use asperity_texture::model::{attributes::Attributes, shift::Shift};
@@ -176,7 +176,13 @@ impl LatentEditor<'_> {
         if asked(Axis::Rough) || asked(Axis::Sharp) {
             let axes = [Axis::Rough, Axis::Sharp];
             if let [Some(rough), Some(sharp)] = axes.map(target) {
-                let seen = |z: &Latent| self.seen(z, &latents.shift, &axes, look);
+                let seen = |z: &Latent| {
+                    let slide = Latents {
+                        slide: *z,
+                        ..*latents
+                    };
+                    self.seen(&slide, &axes, look)
+                };
                 let (start, gradients) = (&latents.slide, axes.map(gradient));
                 edited.slide = reach(start, &gradients, &self.metric, &[rough, sharp], seen)?.z;
             }
@@ -184,19 +190,23 @@ impl LatentEditor<'_> {
         if asked(Axis::Hard)
             && let Some(hard) = target(Axis::Hard)
         {
-            let seen = |z: &Latent| self.seen(z, &latents.shift, &[Axis::Hard], look);
+            let seen = |z: &Latent| {
+                let tap = Latents {
+                    tap: *z,
+                    ..*latents
+                };
+                self.seen(&tap, &[Axis::Hard], look)
+            };
             let gradients = [gradient(Axis::Hard)];
             edited.tap = reach(&latents.tap, &gradients, &self.metric, &[hard], seen)?.z;
         }
         if asked(Axis::Slippery)
             && let Some(slippery) = target(Axis::Slippery)
         {
-            let description = self.prompt_compiler.model().description();
             let factor = libm::exp(-latents.shift.slippery);
             let look = |z: &Latent| {
-                let near = friction::neighbours(z, &description.anchors, description.friction);
                 let attributes = Attributes {
-                    mu: factor * friction::mu(&near, &description.anchors),
+                    mu: factor * look.mu(z),
                     ..before
                 };
                 self.scale.place(Axis::Slippery, &attributes).unwrap_or(0.0)
@@ -207,15 +217,14 @@ impl LatentEditor<'_> {
         Ok(edited)
     }
 
-    /// Places on the sliders of what one latent decodes to.
+    /// Places on the sliders of what latents decode to.
     fn seen(
         &self,
-        z: &Latent,
-        shift: &Shift,
+        latents: &Latents,
         axes: &[Axis],
         look: &Look<'_>,
     ) -> Result<Option<Vec<f64>>, EditError> {
-        let attributes = look.decoded(&Latents::whole(*z).shifted(*shift))?;
+        let attributes = look.decoded(latents)?;
         let places = axes.iter().map(|&axis| self.scale.place(axis, &attributes));
         Ok(places.collect())
     }

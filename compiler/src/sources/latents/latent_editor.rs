@@ -16,10 +16,7 @@ use crate::{
     views::preview,
 };
 use asperity_formats::Asset;
-use asperity_texture::model::{
-    Provenance, TextureModel,
-    attributes::{self, Attributes},
-};
+use asperity_texture::model::{Provenance, TextureModel, attributes::Attributes};
 
 /// Everything that mixes and edits: a prompt compiler's model, and where its sliders lie.
 pub struct LatentEditor<'a> {
@@ -116,8 +113,7 @@ impl<'a> LatentEditor<'a> {
     /// # Errors
     /// As [`texture`](Self::texture).
     pub fn attributes(&self, latents: &Latents) -> Result<Attributes, EditError> {
-        let texture = self.texture(latents)?;
-        Ok(attributes::of(&texture))
+        Look::new(self, &Request::default()).decoded(latents)
     }
 
     /// The attributes of the asset that these latents give: what is left out counts no more.

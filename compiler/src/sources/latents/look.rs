@@ -1,11 +1,22 @@
-//! What latents feel like, each looked at once: a search comes back to where it began.
+//! What latents feel like, each part looked at once: a search comes back to where it began, and moves one part while
+//! the others stay.
 
 use super::{error::EditError, latent_editor::LatentEditor};
 use crate::{
     edit_memory::Latents,
+    learned::{Latent, friction, texture},
+    passes::reduce::{reduce_grid, reduce_taps},
     pipeline::{Pipeline, Request},
 };
-use asperity_texture::model::attributes::{Attributes, Meter};
+use asperity_texture::{
+    model::{
+        ModelGrid, TapBank,
+        attributes::{Attributes, Meter},
+        defaults,
+        shift::{adjust_level, adjust_taps, adjusted_mu},
+    },
+    signal::spectrum::Vibration,
+};
 use std::cell::RefCell;
 
 /// The looks of one search.
@@ -13,8 +24,19 @@ pub(super) struct Look<'a> {
     editor: &'a LatentEditor<'a>,
     request: &'a Request,
     meter: RefCell<Meter>,
-    decoded: RefCell<Vec<(Latents, Attributes)>>,
-    kept: RefCell<Vec<(Latents, Attributes)>>,
+    grids: Memo<Latent, ModelGrid>,
+    banks: Memo<Latent, TapBank>,
+    vibrations: Memo<(State, Latent, f64), Option<Vibration>>,
+    centroids: Memo<(State, Latent, f64), Option<f64>>,
+}
+
+/// What of a texture is looked at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum State {
+    /// All that is decoded.
+    Decoded,
+    /// What an asset of the request holds.
+    Kept,
 }
 
 impl<'a> Look<'a> {
@@ -23,42 +45,97 @@ impl<'a> Look<'a> {
             editor,
             request,
             meter: RefCell::default(),
-            decoded: RefCell::default(),
-            kept: RefCell::default(),
+            grids: Memo::default(),
+            banks: Memo::default(),
+            vibrations: Memo::default(),
+            centroids: Memo::default(),
         }
     }
 
     /// The attributes of what these latents decode to, before anything is reduced.
     pub(super) fn decoded(&self, latents: &Latents) -> Result<Attributes, EditError> {
-        once(&self.decoded, latents, || {
-            let texture = self.editor.texture(latents)?;
-            Ok(self.meter.borrow_mut().of(&texture))
-        })
+        self.attributes(latents, State::Decoded)
     }
 
     /// The attributes of the asset that these latents give: what is left out counts no more.
     pub(super) fn kept(&self, latents: &Latents) -> Result<Attributes, EditError> {
-        once(&self.kept, latents, || {
-            let mut pipeline = Pipeline::default();
-            let texture = pipeline.converted(self.editor.texture(latents)?, self.request)?;
-            let kept = pipeline.reduce(&texture, self.request.fidelity).texture;
-            Ok(self.meter.borrow_mut().of(&kept))
-        })
+        self.attributes(latents, State::Kept)
+    }
+
+    fn attributes(&self, latents: &Latents, state: State) -> Result<Attributes, EditError> {
+        let shift = &latents.shift;
+        let vibration = self
+            .vibrations
+            .once(&(state, latents.slide, shift.rough_db), || {
+                self.vibration(&latents.slide, shift.rough_db, state)
+            })?;
+        let hard_hz = self.centroids.once(&(state, latents.tap, shift.hard), || {
+            self.hard_hz(&latents.tap, shift.hard, state)
+        })?;
+        let mu = adjusted_mu(self.mu(&latents.friction), shift.slippery);
+        Ok(Attributes::of_parts(vibration, hard_hz, mu))
+    }
+
+    fn vibration(
+        &self,
+        slide: &Latent,
+        rough_db: f64,
+        state: State,
+    ) -> Result<Option<Vibration>, EditError> {
+        let model = self.editor.prompt_compiler.model();
+        let mut grid = self.grids.once(slide, || {
+            let decoded = model.decode_grid(slide)?;
+            Ok(texture::grid(&model.description().grid, &decoded))
+        })?;
+        adjust_level(&mut grid, rough_db);
+        if state == State::Kept {
+            grid = Pipeline::default().converted(grid, self.request)?;
+            grid = reduce_grid(&grid, self.request.fidelity);
+        }
+        Ok(self.meter.borrow_mut().vibration(&grid))
+    }
+
+    fn hard_hz(&self, tap: &Latent, hard: f64, state: State) -> Result<Option<f64>, EditError> {
+        let model = self.editor.prompt_compiler.model();
+        let gains = defaults::gains();
+        let mut bank = self.banks.once(tap, || {
+            let decoded = model.decode_taps(tap)?;
+            Ok(texture::taps(model.description(), &decoded, &gains))
+        })?;
+        adjust_taps(&mut bank, &gains, hard);
+        if state == State::Kept {
+            bank = reduce_taps(&bank, self.request.fidelity);
+        }
+        Ok(self.meter.borrow_mut().hard_hz(&bank))
+    }
+
+    /// μ of a latent, before it is shifted.
+    pub(super) fn mu(&self, z: &Latent) -> f64 {
+        let description = self.editor.prompt_compiler.model().description();
+        let near = friction::neighbours(z, &description.anchors, description.friction);
+        friction::mu(&near, &description.anchors)
     }
 }
 
-/// What was found of these latents, or what `find` finds.
-fn once(
-    found: &RefCell<Vec<(Latents, Attributes)>>,
-    latents: &Latents,
-    find: impl FnOnce() -> Result<Attributes, EditError>,
-) -> Result<Attributes, EditError> {
-    // Searches take tens of looks. Latents with a NaN are looked at again.
-    let known = found.borrow().iter().find(|(of, _)| of == latents).copied();
-    if let Some((_, attributes)) = known {
-        return Ok(attributes);
+/// What was found, by what it was found of.
+struct Memo<K, V>(RefCell<Vec<(K, V)>>);
+
+impl<K, V> Default for Memo<K, V> {
+    fn default() -> Self {
+        Self(RefCell::default())
     }
-    let attributes = find()?;
-    found.borrow_mut().push((*latents, attributes));
-    Ok(attributes)
+}
+
+impl<K: Copy + PartialEq, V: Clone> Memo<K, V> {
+    /// What was found of this key, or what `find` finds.
+    fn once(&self, key: &K, find: impl FnOnce() -> Result<V, EditError>) -> Result<V, EditError> {
+        // Searches take tens of looks. A key with a NaN is looked at again.
+        let known = self.0.borrow().iter().find(|(of, _)| of == key).cloned();
+        if let Some((_, value)) = known {
+            return Ok(value);
+        }
+        let value = find()?;
+        self.0.borrow_mut().push((*key, value.clone()));
+        Ok(value)
+    }
 }

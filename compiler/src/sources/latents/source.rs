@@ -186,11 +186,10 @@ pub fn decode(
     provenance: Provenance,
 ) -> Result<TextureModel, ModelError> {
     let description = model.description();
-    let mut decoded = model.decode(&latents.slide)?;
-    if latents.tap != latents.slide {
-        let Decoded { taps_m_s2, .. } = model.decode(&latents.tap)?;
-        decoded.taps_m_s2 = taps_m_s2;
-    }
+    let decoded = Decoded {
+        grid: model.decode_grid(&latents.slide)?,
+        taps_m_s2: model.decode_taps(&latents.tap)?,
+    };
     let name = name.to_owned();
     let (mut texture, _) =
         texture::build(description, &decoded, &latents.friction, name, provenance);

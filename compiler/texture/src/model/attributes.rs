@@ -43,7 +43,7 @@
 //! ```
 
 use crate::{
-    model::{ModelGrid, TextureModel, mesh, mixture::Field},
+    model::{ModelGrid, TapBank, TextureModel, mesh, mixture::Field},
     signal::spectrum::{TraceBand, Vibration, VibrationBand},
 };
 use serde::Serialize;
@@ -68,6 +68,19 @@ pub struct Attributes {
     pub hard_hz: Option<f64>,
     /// Coefficient of kinetic friction; slipperiness is −μ.
     pub mu: f64,
+}
+
+impl Attributes {
+    /// Those of a texture whose parts were measured.
+    #[must_use]
+    pub fn of_parts(vibration: Option<Vibration>, hard_hz: Option<f64>, mu: f64) -> Self {
+        Self {
+            rough_db: vibration.map(|v| 10.0 * libm::log10(v.power)),
+            sharp_hz: vibration.map(|v| v.centroid_hz),
+            hard_hz,
+            mu,
+        }
+    }
 }
 
 /// Speed (mm/s) and force (N) at which the vibration of a grid is described: [`SPEED_MM_S`] and
@@ -99,12 +112,8 @@ impl Meter {
     #[must_use]
     pub fn of(&mut self, texture: &TextureModel) -> Attributes {
         let vibration = self.vibration(&texture.grid);
-        Attributes {
-            rough_db: vibration.map(|v| 10.0 * libm::log10(v.power)),
-            sharp_hz: vibration.map(|v| v.centroid_hz),
-            hard_hz: self.hard_hz(texture),
-            mu: texture.friction.mu,
-        }
+        let hard_hz = self.hard_hz(&texture.taps);
+        Attributes::of_parts(vibration, hard_hz, texture.friction.mu)
     }
 
     /// The vibration of a grid at its [stated stroke](stroke); `None` where it is silent.
@@ -121,9 +130,11 @@ impl Meter {
         band.as_ref()?.vibration(&field.model(&place))
     }
 
-    fn hard_hz(&mut self, texture: &TextureModel) -> Option<f64> {
-        let rate_hz = texture.taps.sample_rate_hz;
-        let fastest = texture.taps.traces.last()?;
+    /// The centroid of a bank's fastest trace, Hz; `None` without one, or at too low a rate.
+    #[must_use]
+    pub fn hard_hz(&mut self, taps: &TapBank) -> Option<f64> {
+        let rate_hz = taps.sample_rate_hz;
+        let fastest = taps.traces.last()?;
         if rate_hz.is_nan() || rate_hz < MIN_TAP_RATE_HZ {
             return None;
         }

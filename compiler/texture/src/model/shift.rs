@@ -15,8 +15,8 @@
 //! ```
 
 use super::{
-    TextureModel,
-    attributes::{self, Attributes},
+    Gains, ModelGrid, TapBank, TextureModel,
+    attributes::{Attributes, Meter},
 };
 use serde::{Deserialize, Serialize};
 
@@ -90,8 +90,12 @@ pub fn scales(attributes: &Attributes) -> Scales {
     [
         attributes.rough_db,
         Some(-libm::log(attributes.mu.max(f64::MIN_POSITIVE))),
-        attributes.hard_hz.filter(|hz| *hz > 0.0).map(libm::log),
+        ln_hz(attributes.hard_hz),
     ]
+}
+
+fn ln_hz(hz: Option<f64>) -> Option<f64> {
+    hz.filter(|hz| *hz > 0.0).map(libm::log)
 }
 
 /// The middle of two.
@@ -110,43 +114,50 @@ pub fn to(wanted: &Scales, now: &Attributes) -> Shift {
 
 /// Moves a texture.
 pub fn adjust(texture: &mut TextureModel, shift: &Shift) {
-    let Shift {
-        rough_db,
-        slippery,
-        hard,
-    } = *shift;
-    if rough_db != 0.0 {
-        let change_db = rough_db.clamp(-LARGEST_CHANGE_DB, LARGEST_CHANGE_DB);
-        let factor = libm::exp10(change_db / 20.0);
-        for vertex in &mut texture.grid.vertices {
-            vertex.sigma_m_s2 *= factor;
-        }
+    adjust_level(&mut texture.grid, shift.rough_db);
+    texture.friction.mu = adjusted_mu(texture.friction.mu, shift.slippery);
+    adjust_taps(&mut texture.taps, &texture.gains, shift.hard);
+}
+
+/// Moves the level of every model, dB.
+pub fn adjust_level(grid: &mut ModelGrid, rough_db: f64) {
+    if rough_db == 0.0 {
+        return;
     }
-    if slippery != 0.0 {
-        let mu = texture.friction.mu * libm::exp(-slippery);
-        texture.friction.mu = mu.clamp(MU.0, MU.1);
-    }
-    if hard != 0.0
-        && let Some(now) = scales(&attributes::of(texture))[2]
-    {
-        tap(texture, now + hard);
+    let change_db = rough_db.clamp(-LARGEST_CHANGE_DB, LARGEST_CHANGE_DB);
+    let factor = libm::exp10(change_db / 20.0);
+    for vertex in &mut grid.vertices {
+        vertex.sigma_m_s2 *= factor;
     }
 }
 
-/// Plays all traces faster or slower until the fastest has the wanted centroid, ln Hz.
-fn tap(texture: &mut TextureModel, wanted: f64) {
-    let original = texture.taps.traces.clone();
-    let limit = TAP_SHARE * texture.gains.f_max_n / texture.gains.effective_mass_kg;
+/// A coefficient of friction that is moved, −ln μ.
+#[must_use]
+pub fn adjusted_mu(mu: f64, slippery: f64) -> f64 {
+    if slippery == 0.0 {
+        return mu;
+    }
+    (mu * libm::exp(-slippery)).clamp(MU.0, MU.1)
+}
+
+/// Moves the centroid of a bank's fastest trace, ln Hz, and with it the pace of all traces. Their peaks stay within
+/// what a device of these gains can give.
+pub fn adjust_taps(taps: &mut TapBank, gains: &Gains, hard: f64) {
+    let mut meter = Meter::default();
+    let mut centroid = |taps: &TapBank| ln_hz(meter.hard_hz(taps));
+    let before = if hard == 0.0 { None } else { centroid(taps) };
+    let Some(before) = before else { return };
+    let wanted = before + hard;
+    let original = taps.traces.clone();
+    let limit = TAP_SHARE * gains.f_max_n / gains.effective_mass_kg;
     let mut pace = 0.0;
     for _ in 0..CORRECTIONS {
-        let Some(now) = scales(&attributes::of(texture))[2] else {
-            return;
-        };
+        let Some(now) = centroid(taps) else { return };
         let bound = libm::log(FASTEST);
         pace = f64::clamp(pace + wanted - now, -bound, bound);
         let pace = libm::exp(pace);
         let mut peak = 0.0_f64;
-        for (trace, original) in texture.taps.traces.iter_mut().zip(&original) {
+        for (trace, original) in taps.traces.iter_mut().zip(&original) {
             trace.accel_m_s2 = at_pace(&original.accel_m_s2, pace);
             peak = trace
                 .accel_m_s2
@@ -154,11 +165,7 @@ fn tap(texture: &mut TextureModel, wanted: f64) {
                 .fold(peak, |peak, a| peak.max(a.abs()));
         }
         if peak > limit {
-            let samples = texture
-                .taps
-                .traces
-                .iter_mut()
-                .flat_map(|t| &mut t.accel_m_s2);
+            let samples = taps.traces.iter_mut().flat_map(|t| &mut t.accel_m_s2);
             samples.for_each(|a| *a *= limit / peak);
         }
     }

@@ -181,8 +181,8 @@ fn instance(decoded: &Decoded) -> Instance {
     let fill = |to: &mut [f32], from: &[f32]| {
         to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
     };
-    fill(instance.lsf_rad.as_flattened_mut(), &decoded.lsf_rad);
-    fill(&mut instance.level_db, &decoded.level_db);
+    fill(instance.lsf_rad.as_flattened_mut(), &decoded.grid.lsf_rad);
+    fill(&mut instance.level_db, &decoded.grid.level_db);
     fill(instance.taps_m_s2.as_flattened_mut(), &decoded.taps_m_s2);
     instance
 }

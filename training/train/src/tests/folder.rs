@@ -71,7 +71,7 @@ fn the_compiler_loads_what_is_written_and_decodes_the_same() {
         assert_eq!(projected.similarity.len(), 6);
         let decoded = model.decode(&projected.z).unwrap();
         let expected = &trained.decode(&trained.project(&[vector]))[0];
-        for (x, y) in decoded.level_db.iter().zip(expected.level_db) {
+        for (x, y) in decoded.grid.level_db.iter().zip(expected.level_db) {
             assert!((x - y).abs() < 1e-2, "{x} {y}");
         }
     }
