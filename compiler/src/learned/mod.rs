@@ -14,6 +14,7 @@ mod files;
 pub mod friction;
 pub mod inference;
 mod model;
+mod network;
 pub mod text;
 pub mod texture;
 

@@ -6,8 +6,8 @@ use super::{
     error::ModelError,
     files::Files,
     inference::Backend,
+    network::{Input, Network},
 };
-use asperity_nn::{Session, Tensor};
 use asperity_texture::model::Provenance;
 use std::{borrow::Cow, sync::OnceLock};
 
@@ -68,11 +68,11 @@ pub enum Present<'a> {
 pub struct LearnedModel {
     crc32: u32,
     description: ModelDescription,
-    text_projection: Box<dyn Session>,
-    ar_decoder: Box<dyn Session>,
-    tap_decoder: Box<dyn Session>,
+    text_projection: Network,
+    ar_decoder: Network,
+    tap_decoder: Network,
     /// Loaded on first use, because a prompt needs no encoder.
-    encoder: OnceLock<Box<dyn Session>>,
+    encoder: OnceLock<Network>,
     encoder_bytes: Cow<'static, [u8]>,
     backend: Backend,
 }
@@ -90,20 +90,13 @@ impl LearnedModel {
             })?;
         check(&description)?;
         let crc32 = files.crc32();
-        let session = |file: &str, bytes: Cow<'static, [u8]>| {
-            backend
-                .session(bytes)
-                .map_err(|message| ModelError::Network {
-                    file: file.into(),
-                    message,
-                })
-        };
+        let network = |file, bytes| Network::load(file, bytes, backend);
         Ok(Self {
             crc32,
             description,
-            text_projection: session("text_projection.onnx", files.text_projection)?,
-            ar_decoder: session("ar_decoder.onnx", files.ar_decoder)?,
-            tap_decoder: session("tap_decoder.onnx", files.tap_decoder)?,
+            text_projection: network("text_projection.onnx", files.text_projection)?,
+            ar_decoder: network("ar_decoder.onnx", files.ar_decoder)?,
+            tap_decoder: network("tap_decoder.onnx", files.tap_decoder)?,
             encoder: OnceLock::new(),
             encoder_bytes: files.encoder,
             backend: *backend,
@@ -178,21 +171,18 @@ impl LearnedModel {
                 found: other.len(),
             });
         }
-        const FILE: &str = "text_projection.onnx";
         let (count, anchors) = (vectors.len(), self.description.anchors.len());
-        let outputs = run(
-            FILE,
-            self.text_projection.as_ref(),
-            &[("embedding", &[count, expected], &vectors.concat())],
-        )?;
-        let z = take(FILE, &outputs, "z", count * LATENT)?;
-        let felt = if has(&outputs, "felt") {
-            Some(take(FILE, &outputs, "felt", count * FELT)?)
+        let vectors = vectors.concat();
+        let inputs: [Input<'_>; 1] = [("embedding", &[count, expected], &vectors)];
+        let outputs = self.text_projection.run(&inputs)?;
+        let z = outputs.take("z", count * LATENT)?;
+        let felt = if outputs.has("felt") {
+            Some(outputs.take("felt", count * FELT)?)
         } else {
             None
         };
-        let similarity = take(FILE, &outputs, "similarity", count * anchors)?;
-        let familiarity = take(FILE, &outputs, "familiarity", count)?;
+        let similarity = outputs.take("similarity", count * anchors)?;
+        let familiarity = outputs.take("familiarity", count)?;
         let row = |n: usize| Projected {
             z: latent(&z[n * LATENT..]),
             felt: felt
@@ -254,13 +244,12 @@ impl LearnedModel {
     }
 
     fn decoded_grids(&self, z: &[f32]) -> Result<Vec<DecodedGrid>, ModelError> {
-        const FILE: &str = "ar_decoder.onnx";
         let grid = &self.description.grid;
         let (count, bins) = (z.len() / LATENT, grid.speeds_mm_s.len());
         let inputs: [Input<'_>; 1] = [("z", &[count, LATENT], z)];
-        let outputs = run(FILE, self.ar_decoder.as_ref(), &inputs)?;
-        let lsf_rad = take(FILE, &outputs, "lsf_rad", count * bins * grid.order)?;
-        let level_db = take(FILE, &outputs, "level_db", count * bins)?;
+        let outputs = self.ar_decoder.run(&inputs)?;
+        let lsf_rad = outputs.take("lsf_rad", count * bins * grid.order)?;
+        let level_db = outputs.take("level_db", count * bins)?;
         let rows = rows(&lsf_rad, count).zip(rows(&level_db, count));
         Ok(rows
             .map(|(lsf_rad, level_db)| DecodedGrid { lsf_rad, level_db })
@@ -268,12 +257,11 @@ impl LearnedModel {
     }
 
     fn decoded_taps(&self, z: &[f32]) -> Result<Vec<Vec<f32>>, ModelError> {
-        const FILE: &str = "tap_decoder.onnx";
         let taps = &self.description.taps;
         let (count, samples) = (z.len() / LATENT, taps.speeds_m_s.len() * taps.samples);
         let inputs: [Input<'_>; 1] = [("z", &[count, LATENT], z)];
-        let outputs = run(FILE, self.tap_decoder.as_ref(), &inputs)?;
-        let taps_m_s2 = take(FILE, &outputs, "taps_m_s2", count * samples)?;
+        let outputs = self.tap_decoder.run(&inputs)?;
+        let taps_m_s2 = outputs.take("taps_m_s2", count * samples)?;
         Ok(rows(&taps_m_s2, count).collect())
     }
 
@@ -282,7 +270,6 @@ impl LearnedModel {
     /// # Errors
     /// [`ModelError::Network`] when the network fails.
     pub fn encode(&self, known: Present<'_>) -> Result<Latent, ModelError> {
-        const FILE: &str = "encoder.onnx";
         let grid = &self.description.grid;
         let taps = &self.description.taps;
         let bins = grid.speeds_mm_s.len();
@@ -296,31 +283,20 @@ impl LearnedModel {
             Present::Taps(bank) => (&no_ar, bank, [0.0, 1.0]),
             Present::Both(ar, bank) => (ar, bank, [1.0, 1.0]),
         };
-        let encoder = self.encoder()?;
-        let outputs = run(
-            FILE,
-            encoder,
-            &[
-                ("ar", &[1, bins, grid.order + 1], ar),
-                ("taps_m_s2", &[1, traces, samples], bank),
-                ("present", &[1, 2], &present),
-            ],
-        )?;
-        Ok(latent(&take(FILE, &outputs, "mean", LATENT)?))
+        let outputs = self.encoder()?.run(&[
+            ("ar", &[1, bins, grid.order + 1], ar),
+            ("taps_m_s2", &[1, traces, samples], bank),
+            ("present", &[1, 2], &present),
+        ])?;
+        Ok(latent(&outputs.take("mean", LATENT)?))
     }
 
-    fn encoder(&self) -> Result<&dyn Session, ModelError> {
+    fn encoder(&self) -> Result<&Network, ModelError> {
         if let Some(encoder) = self.encoder.get() {
-            return Ok(encoder.as_ref());
+            return Ok(encoder);
         }
-        let session = self
-            .backend
-            .session(self.encoder_bytes.clone())
-            .map_err(|message| ModelError::Network {
-                file: "encoder.onnx".into(),
-                message,
-            })?;
-        Ok(self.encoder.get_or_init(|| session).as_ref())
+        let network = Network::load("encoder.onnx", self.encoder_bytes.clone(), &self.backend)?;
+        Ok(self.encoder.get_or_init(|| network))
     }
 }
 
@@ -338,71 +314,6 @@ fn bounded(latents: &[Latent]) -> Vec<f32> {
 
 /// The equal parts of a batch.
 fn rows(values: &[f32], count: usize) -> impl Iterator<Item = Vec<f32>> {
-    values.chunks(values.len() / count).map(<[f32]>::to_vec)
-}
-
-// Running a network, and distrusting what comes out.
-
-/// Name, shape and numbers.
-type Input<'a> = (&'a str, &'a [usize], &'a [f32]);
-
-/// Runs a network.
-///
-/// # Errors
-/// [`ModelError::Network`] with its file.
-fn run(
-    file: &str,
-    session: &dyn Session,
-    inputs: &[Input<'_>],
-) -> Result<Vec<(String, Tensor)>, ModelError> {
-    let tensors: Vec<(&str, Tensor)> = inputs
-        .iter()
-        .map(|(name, shape, data)| {
-            let tensor = Tensor::F32 {
-                shape: shape.to_vec(),
-                data: data.to_vec(),
-            };
-            (*name, tensor)
-        })
-        .collect();
-    let inputs: Vec<(&str, &Tensor)> = tensors.iter().map(|(name, t)| (*name, t)).collect();
-    session.run(&inputs).map_err(|error| ModelError::Network {
-        file: file.into(),
-        message: error.to_string(),
-    })
-}
-
-/// Whether there is an output of this name.
-fn has(outputs: &[(String, Tensor)], name: &str) -> bool {
-    outputs.iter().any(|(output, _)| output == name)
-}
-
-/// The output of this name, which must be finite and of this length.
-///
-/// # Errors
-/// [`ModelError::Network`] with its file.
-fn take(
-    file: &str,
-    outputs: &[(String, Tensor)],
-    name: &str,
-    length: usize,
-) -> Result<Vec<f32>, ModelError> {
-    let fault = |message: String| ModelError::Network {
-        file: file.into(),
-        message,
-    };
-    match outputs.iter().find(|(output, _)| output == name) {
-        Some((_, Tensor::F32 { data, .. })) if data.len() == length => {
-            if data.iter().all(|x| x.is_finite()) {
-                Ok(data.clone())
-            } else {
-                Err(fault(format!("output {name} is not finite")))
-            }
-        }
-        Some((_, other)) => Err(fault(format!(
-            "output {name} has shape {:?}, {length} numbers wanted",
-            other.shape()
-        ))),
-        None => Err(fault(format!("no output {name}"))),
-    }
+    let size = values.len() / count.max(1);
+    (0..count).map(move |n| values[n * size..(n + 1) * size].to_vec())
 }
