@@ -72,7 +72,8 @@ fn of_bytes(asset: &[u8]) -> Attributes {
 #[test]
 fn attributes_of_parts_are_those_of_the_whole_texture() {
     let editor = LatentEditor::new(&PROMPTS);
-    let [a, b, c] = [0, 1, 2].map(|n| textures()[n]);
+    let textures = textures();
+    let (a, b, c) = (textures[0], textures[1], textures[2]);
     let shift = Shift {
         rough_db: 4.0,
         slippery: 0.2,

@@ -204,7 +204,7 @@ impl LatentEditor<'_> {
             && let Some(slippery) = target(Axis::Slippery)
         {
             let factor = libm::exp(-latents.shift.slippery);
-            let look = |z: &Latent| {
+            let seen = |z: &Latent| {
                 let attributes = Attributes {
                     mu: factor * look.mu(z),
                     ..before
@@ -212,7 +212,7 @@ impl LatentEditor<'_> {
                 self.scale.place(Axis::Slippery, &attributes).unwrap_or(0.0)
             };
             let gradient = gradient(Axis::Slippery);
-            edited.friction = along(&latents.friction, gradient, &self.metric, slippery, look);
+            edited.friction = along(&latents.friction, gradient, &self.metric, slippery, seen);
         }
         Ok(edited)
     }

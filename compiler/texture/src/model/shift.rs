@@ -143,10 +143,12 @@ pub fn adjusted_mu(mu: f64, slippery: f64) -> f64 {
 /// Moves the centroid of a bank's fastest trace, ln Hz, and with it the pace of all traces. Their peaks stay within
 /// what a device of these gains can give.
 pub fn adjust_taps(taps: &mut TapBank, gains: &Gains, hard: f64) {
+    if hard == 0.0 {
+        return;
+    }
     let mut meter = Meter::default();
     let mut centroid = |taps: &TapBank| ln_hz(meter.hard_hz(taps));
-    let before = if hard == 0.0 { None } else { centroid(taps) };
-    let Some(before) = before else { return };
+    let Some(before) = centroid(taps) else { return };
     let wanted = before + hard;
     let original = taps.traces.clone();
     let limit = TAP_SHARE * gains.f_max_n / gains.effective_mass_kg;
