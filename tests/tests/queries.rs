@@ -18,7 +18,7 @@ use rayon::prelude::*;
 
 /// Random queries over all materials.
 fn random_queries() -> usize {
-    sized("random queries", 200_000, 10_000_000)
+    sized("random queries", 75_000, 10_000_000)
 }
 
 struct Checked {
@@ -80,7 +80,7 @@ impl Checked {
     }
 
     fn places(&mut self) {
-        let (points_an_edge, points_a_side) = Size::asked().of((40, 2000), (1000, 20_000));
+        let (points_an_edge, points_a_side) = Size::asked().of((15, 700), (1000, 20_000));
         let at = |v: usize, oracle: &Texture| {
             let vertex = &oracle.vertices[v];
             (vertex.speed_mm_s, vertex.force_n)

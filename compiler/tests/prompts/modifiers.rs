@@ -58,7 +58,7 @@ fn read(prompt: &str) -> Attributes {
 #[test]
 fn modifiers_move_the_right_way_and_are_noticed() {
     let file: File = toml::from_str(&evaluation("modifiers.toml")).expect("modifiers.toml");
-    let stride = sized("every so many modifiers", 6, 1);
+    let stride = sized("every so many modifiers", 12, 1);
     let modifiers: Vec<&Modified> = file.modifiers.iter().step_by(stride).collect();
     let steps: Vec<(f64, &Modified)> = modifiers
         .into_par_iter()
@@ -174,7 +174,7 @@ fn what_people_touch_is_familiar_and_nonsense_is_not() {
 #[test]
 fn a_name_is_its_material() {
     let anchors = &PROMPTS.model().description().anchors;
-    let stride = sized("every so many names", 5, 1);
+    let stride = sized("every so many names", 10, 1);
     let asked: Vec<_> = anchors.iter().step_by(stride).collect();
     let right = asked.par_iter().filter(|anchor| {
         let z = PROMPTS.project(&anchor.name).expect("a name").z;

@@ -56,7 +56,7 @@ fn everyday_words_are_ordered_as_any_person_would() {
         "slippery" => -a.mu,
         _ => a.hard_hz.unwrap(),
     };
-    let stride = sized("every so many pairs", 6, 1);
+    let stride = sized("every so many pairs", 12, 1);
     let (mut missed, mut table) = (Vec::new(), BTreeMap::new());
     for (attribute, least_share) in LEAST_SHARES {
         let rows = pairs[attribute].as_array().unwrap();
