@@ -111,27 +111,6 @@ fn a_device_and_a_grip_of_ones_own_are_used() {
 }
 
 #[test]
-fn stability_passes_counts_on_its_last_line_and_draws() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let output = lab(folder.path(), &["stability", "-o", "pictures"]);
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    let table = text(&output.stdout);
-    let rows = table
-        .lines()
-        .filter(|l| l.starts_with("pass  ") || l.starts_with("skip  "));
-    let count = table.lines().last().expect("a last line");
-    assert!(
-        count.starts_with(&format!("{} rows: ", rows.count())) && count.contains(" 0 failed"),
-        "{count}"
-    );
-    assert!(table.contains("needs the HaTT materials: --hatt DIR"));
-    assert_eq!(
-        entries(&folder.path().join("pictures")),
-        ["tables.md", "wall-map.png", "waveforms.png"]
-    );
-}
-
-#[test]
 fn usage_errors_exit_with_2() {
     let folder = tempfile::tempdir().expect("a folder");
     for arguments in [

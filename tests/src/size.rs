@@ -1,6 +1,6 @@
 //! How much work the heavy tests take: `ASPERITY_TEST_SIZE`, `small` without it.
 //!
-//! `small` is what a newcomer waits for. `full` is what a claim rests on; `.ci/run` runs it in release.
+//! `small` is what a newcomer waits for. `full` is what a claim rests on; `.ci/full` runs it in release.
 //! Neither follows the profile. A test that has both prints the size it ran at, which
 //! `--nocapture` shows.
 

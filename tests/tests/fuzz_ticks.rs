@@ -1,4 +1,4 @@
-//! A short run of the fuzzed ticks. `.ci/run` has a longer one, and the command `fuzz-ticks` runs
+//! A short run of the fuzzed ticks. `.ci/full` has a longer one, and the command `fuzz-ticks` runs
 //! any number.
 
 use asperity_runtime::{Fixed, Float, RenderArithmetic};

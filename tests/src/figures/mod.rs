@@ -79,7 +79,7 @@ fn hold_to(name: &str, measured: &Set) {
 }
 
 /// Writes the set `name` where [`VARIABLE`] asks for that, and else compares it with what was measured. A set that
-/// differs is reported as a line `stale: …`, which `.ci/run` repeats at its end; one of other conditions, such as
+/// differs is reported as a line `stale: …`, which `.ci/run` and `.ci/full` repeat at their end; one of other conditions, such as
 /// another compiler, is not compared.
 ///
 /// # Errors

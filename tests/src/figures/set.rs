@@ -18,7 +18,7 @@ pub struct Set {
     /// Machine, compiler and settings, where figures depend on them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub conditions: Option<String>,
-    /// When they were measured; none where a test of `.ci/run` holds them.
+    /// When they were measured; none where a test holds them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measured: Option<Measured>,
     /// The figures by name, as pages print them: a number, or lines such as a table.
