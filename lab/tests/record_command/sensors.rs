@@ -136,7 +136,7 @@ fn a_serial_port_is_read_and_one_that_is_unplugged_keeps_what_it_sent() {
 
 #[test]
 fn a_port_that_sends_no_samples_is_told_and_leaves_nothing() {
-    for (sent, columns, part) in [
+    let ports = [
         ("\u{1b}[31mhello\r\n", "", "its header did not come"),
         ("1,2\r\n", "?columns=ax", "are not samples"),
         (
@@ -152,14 +152,24 @@ fn a_port_that_sends_no_samples_is_told_and_leaves_nothing() {
             "nothing measures the force",
         ),
         ("0.1,0.2\r\n", "?columns=ax,fx", "not the one along z"),
-    ] {
-        let folder = tempfile::tempdir().expect("a folder");
-        let (mut end, name) = pty();
-        let child = spawn(folder.path(), &format!("serial:{name}{columns}"), &[]);
-        let until = Arc::new(AtomicBool::new(false));
-        let done = Arc::clone(&until);
-        let board = thread::spawn(move || {
-            while !done.load(Relaxed) {
+    ];
+    // Each command waits for its port.
+    thread::scope(|scope| {
+        for (sent, columns, part) in ports {
+            scope.spawn(move || a_port_that_sends(sent, columns, part));
+        }
+    });
+}
+
+/// Records from a port that sends a line again and again; the command must fail with a part of its message.
+fn a_port_that_sends(sent: &str, columns: &str, part: &str) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut end, name) = pty();
+    let child = spawn(folder.path(), &format!("serial:{name}{columns}"), &[]);
+    let until = AtomicBool::new(false);
+    let output = thread::scope(|scope| {
+        scope.spawn(|| {
+            while !until.load(Relaxed) {
                 // The other end may not be open yet, or no more.
                 let _ = end.write_all(sent.repeat(10).as_bytes());
                 sleep(Duration::from_millis(10));
@@ -167,16 +177,16 @@ fn a_port_that_sends_no_samples_is_told_and_leaves_nothing() {
         });
         let output = wait(child);
         until.store(true, Relaxed);
-        board.join().expect("the board");
-        let error = errors(&output);
-        assert_eq!(output.status.code(), Some(1), "{error}");
-        assert!(
-            error.contains(part) && error.contains("help:"),
-            "{part} in {error}"
-        );
-        assert!(!error.contains('\u{1b}'));
-        assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 0);
-    }
+        output
+    });
+    let error = errors(&output);
+    assert_eq!(output.status.code(), Some(1), "{error}");
+    assert!(
+        error.contains(part) && error.contains("help:"),
+        "{part} in {error}"
+    );
+    assert!(!error.contains('\u{1b}'));
+    assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 0);
 }
 
 #[test]
