@@ -111,6 +111,15 @@ fn a_device_and_a_grip_of_ones_own_are_used() {
 }
 
 #[test]
+fn a_comparison_with_no_measured_material_is_refused_and_writes_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = lab(folder.path(), &["measured", "--hatt", ".", "-o", "tables"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).contains("help:"));
+    assert_eq!(entries(folder.path()), [""; 0]);
+}
+
+#[test]
 fn usage_errors_exit_with_2() {
     let folder = tempfile::tempdir().expect("a folder");
     for arguments in [

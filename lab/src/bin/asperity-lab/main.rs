@@ -7,6 +7,7 @@ mod error;
 mod feel;
 mod jitter;
 mod loop_options;
+mod measured;
 mod pareto;
 mod record;
 mod servo;
@@ -34,6 +35,7 @@ use error::Plain;
   asperity-lab jitter --seconds 10 --cyclictest
   asperity-lab stability
   asperity-lab pareto -o charts
+  asperity-lab measured --hatt hatt/models
   asperity-lab device list
   asperity-lab bench --seconds 5,60
   asperity-lab record oak --device sim:?hand=record --accel sim:")]
@@ -53,6 +55,7 @@ enum Command {
     Jitter(jitter::Arguments),
     Stability(stability::Arguments),
     Pareto(pareto::Arguments),
+    Measured(measured::Arguments),
     Device(device::Arguments),
     Bench(bench::Arguments),
     Record(record::Arguments),
@@ -92,6 +95,7 @@ fn main() -> ExitCode {
         Command::Stability(arguments) => stability::run(arguments, console),
         Command::Device(arguments) => device::run(arguments, console),
         Command::Pareto(arguments) => pareto::run(arguments, console).map(|()| true),
+        Command::Measured(arguments) => measured::run(arguments, console).map(|()| true),
         Command::Bench(arguments) => bench::run(arguments, console).map(|()| true),
         Command::Record(arguments) => record::run(arguments, console).map(|()| true),
         Command::Completions(arguments) => arguments.run::<Arguments>(console).map(|()| true),

@@ -1,0 +1,101 @@
+//! `asperity-lab measured`: prompts against the measured materials that they name.
+
+use std::path::PathBuf;
+
+use asperity::{hatt, inference::BackendName, library::Setup, text::TextEncoderChoice};
+use asperity_console::Console;
+use asperity_experiments::{
+    measured::{Comparison, chart, markdown, material},
+    pareto::material::hatt as measured_models,
+};
+use asperity_io::{
+    diagnostic::{Failures, one},
+    output,
+};
+
+use crate::error::Plain;
+
+/// Compare prompts with the measured materials that they name
+///
+/// Every material of a HaTT folder is compiled by its name, and the vibration of the texture is held
+/// against the measured models at nine strokes in twelve third octaves. Baselines that know the other
+/// materials are judged alike. Intervals are of 95 %, by a bootstrap over names.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  asperity-lab measured --hatt hatt/models
+  asperity-lab measured --hatt hatt/models --model my-model -o measured
+  asperity-lab measured --hatt hatt/models --json > measured.json
+
+With --output: tables.md, and spectra.png where 20 materials or more are compared.")]
+pub(crate) struct Arguments {
+    /// Folder of HaTT models
+    #[arg(long, value_name = "DIR")]
+    hatt: PathBuf,
+    /// Text encoder: the embedded `minilm`, or `clip:DIR` for an exported text tower of CLIP
+    #[arg(long, default_value = "minilm", value_name = "minilm|clip:DIR")]
+    text_encoder: TextEncoderChoice,
+    /// Model folder written by `asperity-train fit` [default: the embedded model]
+    #[arg(long, value_name = "DIR")]
+    model: Option<PathBuf>,
+    /// Inference back end: `portable`, which gives the same bits everywhere, or `onnxruntime`
+    #[arg(long, default_value_t, value_name = "portable|onnxruntime")]
+    backend: BackendName,
+    /// Folder to write tables and a picture to; created if its parent exists
+    #[arg(short = 'o', long = "output", alias = "out", value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print JSON, with the errors of each material
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failures> {
+    let setup = Setup {
+        text_encoder: arguments.text_encoder.clone(),
+        model: arguments.model.clone(),
+        backend: arguments.backend,
+    };
+    let prompt_compiler = setup.prompt_compiler()?;
+    let models = measured_models(&arguments.hatt).map_err(one)?;
+    let bar = console.bar(models.len(), "compiling by name");
+    let materials = material::compile_by_name(&models, &prompt_compiler, || bar.inc(1));
+    bar.finish_and_clear();
+    let comparison = Comparison::of(&materials);
+    for (name, reason) in &comparison.left_out {
+        console.warn(&format!("{name} is not compared: {reason}"));
+    }
+    if comparison.names < 2 {
+        return Err(Plain::failure(
+            format!(
+                "{}: {} different names can be compared",
+                arguments.hatt.display(),
+                comparison.names
+            ),
+            "give a folder with materials of two names or more",
+        ));
+    }
+    let tables = markdown::tables(&comparison);
+    if let Some(folder) = &arguments.out {
+        let mut files = vec![("tables.md".to_owned(), tables.clone().into_bytes())];
+        if let Some(trends) = &comparison.trends {
+            files.push((
+                "spectra.png".to_owned(),
+                chart::spectra(trends)
+                    .map_err(|error| Plain::failure(error, "report this as a bug"))?,
+            ));
+        }
+        let files: Vec<(String, &[u8])> = (files.iter())
+            .map(|(name, bytes)| (name.clone(), &bytes[..]))
+            .collect();
+        let mut inputs = hatt::files(&arguments.hatt).map_err(one)?;
+        inputs.extend(setup.files());
+        output::write_folder_beside(&inputs, folder, &files).map_err(one)?;
+    }
+    let printed = if arguments.json {
+        let text = serde_json::to_string_pretty(&comparison)
+            .map_err(|error| Plain::failure(error, "report this as a bug"))?;
+        console.json(&text)
+    } else {
+        console.result_of(arguments.out.is_some(), &tables)
+    };
+    printed.map_err(one)
+}
