@@ -204,6 +204,33 @@ mod tests {
     }
 
     #[test]
+    fn friction_leaves_the_peaks_of_a_vibration_their_room() {
+        let mut texture = louder(300.0);
+        // As loud under a light hand as under a heavy one.
+        let loud = texture.grid.vertices[texture.grid.vertices.len() - 1].clone();
+        for vertex in &mut texture.grid.vertices {
+            vertex.lsf_rad.clone_from(&loud.lsf_rad);
+            vertex.sigma_m_s2 = loud.sigma_m_s2;
+        }
+        texture.friction.mu = 3.0;
+        let ceiling = limit(&mut texture);
+        // Friction takes so much that the continuous force is no longer what limits.
+        assert!(ceiling.rms_n < 0.8 * ceiling.continuous_n, "{ceiling:?}");
+        let peak_n = texture.gains.f_max_n;
+        let to_force = texture.gains.vib_s2_m * peak_n;
+        let share = |at: &Level| {
+            let along_n = 3.0 * at.force_n + 3.0 * to_force * at.rms_m_s2;
+            at.force_n.hypot(along_n) / peak_n
+        };
+        let levels = levels(&texture.grid);
+        let light = levels
+            .iter()
+            .filter(|at| at.force_n <= ceiling.continuous_n);
+        let most = light.map(share).fold(0.0, f64::max);
+        assert!((0.99..1.0).contains(&most), "{most} of the peak");
+    }
+
+    #[test]
     fn a_tap_beyond_the_peak_comes_down_to_it() {
         let mut texture = builtin::texture();
         for trace in &mut texture.taps.traces {

@@ -223,6 +223,16 @@ fn every_notation_of_a_grit_is_the_same_paper_and_finer_ones_are_no_duller() {
 }
 
 #[test]
+fn shore_d_is_shore_a_fifty_units_up() {
+    for (d, a) in [
+        ("Shore D 10 rubber", "Shore A 60 rubber"),
+        ("rubber, 40D Shore", "Shore A 90 rubber"),
+    ] {
+        assert_eq!(read(d), read(a), "{d}");
+    }
+}
+
+#[test]
 fn the_version_of_the_reader_follows_what_it_reads() {
     let [phrases, rated] = ["phrases.tsv", "rated.tsv"].map(evaluation);
     let [things, nonsense, near, rewordings] = [

@@ -165,6 +165,28 @@ fn missed_periods_are_made_up_for_one_after_the_other() {
 }
 
 #[test]
+fn periods_missed_while_others_are_made_up_for_count_once() {
+    let settings = Settings {
+        overrun: Overrun::CatchUp,
+        ..periods(100)
+    };
+    let slow_twice = |call| Act {
+        takes_ns: match call {
+            10 => 7 * PERIOD_NS / 2,
+            11 => 2 * PERIOD_NS,
+            _ => 0,
+        },
+        ..Act::default()
+    };
+    let run = run(settings, slow_twice, calm, 0);
+    // Tick 10 misses two periods; the first that is made up for misses two more.
+    let missed = |n: usize| run.kept.records[n].missed;
+    assert_eq!([11, 12, 13, 14, 15].map(missed), [2, 2, 0, 0, 0]);
+    assert_eq!((run.report.missed, run.report.caught_up), (4, 4));
+    assert_within_limits(&run);
+}
+
+#[test]
 fn no_more_is_made_up_for_than_a_tenth_of_a_second() {
     let settings = Settings {
         overrun: Overrun::CatchUp,
