@@ -66,7 +66,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     if comparison.names < 2 {
         return Err(Plain::failure(
             format!(
-                "{}: {} different names can be compared",
+                "{}: materials of two names or more are needed, {} can be compared",
                 arguments.hatt.display(),
                 comparison.names
             ),
