@@ -82,7 +82,9 @@ pub use asperity_io::diagnostic;
 
 // Users name a module without its folder, so that files can move between the stages.
 pub use asperity_texture::model::{self, attributes, defaults, mesh, mixture, tap_synthesis};
-pub use asperity_texture::signal::{impact, level, levinson, lsf, reflection, resample, spectrum};
+pub use asperity_texture::signal::{
+    impact, level, levinson, lsf, quantile, reflection, resample, spectrum,
+};
 pub use emit::{lower, raise, textures, verify};
 pub use learned::{embedded, inference, text};
 pub use passes::{ceiling, reduce, rerate, stabilise, triangulate};

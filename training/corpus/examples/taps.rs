@@ -6,11 +6,14 @@
 //! ```
 
 use asperity_corpus::{
-    generator::Physical,
+    generator::{
+        Physical,
+        constants::{ConstantSet, Constants},
+    },
     measured::{banks::Bank, modes, profiles},
-    reference::schema,
+    reference,
 };
-use std::{collections::BTreeMap, error::Error, fs, path::Path};
+use std::{collections::BTreeMap, error::Error};
 
 /// Materials of the first table, from soft to hard.
 const SHOWN: [&str; 8] = [
@@ -27,35 +30,16 @@ const SHOWN: [&str; 8] = [
 const HARD_MPA: f64 = 500.0;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let corpora = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpora");
-    let mut materials = BTreeMap::new();
-    read(&corpora, &mut materials)?;
+    let materials = reference::physical()?;
     banks(&materials);
     modes(&materials);
-    profiles(&materials);
-    Ok(())
-}
-
-/// Adds the materials of every family file of a folder.
-fn read(folder: &Path, materials: &mut BTreeMap<String, Physical>) -> Result<(), Box<dyn Error>> {
-    for entry in fs::read_dir(folder)? {
-        let path = entry?.path();
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        if !name.ends_with(".toml") {
-            continue;
-        }
-        // Files of other forms hold no materials.
-        if let Ok(family) = schema::parse(&name, &fs::read_to_string(&path)?) {
-            let entries = family.material.iter();
-            materials.extend(entries.map(|m| (m.name.clone(), m.physical.values())));
-        }
-    }
+    profiles(&Constants::embedded(ConstantSet::Calibrated)?, &materials);
     Ok(())
 }
 
 fn banks(materials: &BTreeMap<String, Physical>) {
     println!(
-        "| material | contact, ms | centroid, Hz | cosine | peak ∝ v^ | error between speeds | nearest trace |"
+        "## Banks\n\n| material | contact, ms | centroid, Hz | cosine | peak ∝ v^ | error between speeds | nearest trace |"
     );
     println!("|---|---|---|---|---|---|---|");
     for name in SHOWN {
@@ -92,34 +76,43 @@ fn banks(materials: &BTreeMap<String, Physical>) {
         .iter()
         .filter(|(modulus_mpa, _)| *modulus_mpa > HARD_MPA)
         .count();
-    println!("\n{} materials, {hard} of them hard", all.len());
+    println!("\n## Materials\n\n{}\n\n## Hard\n\n{hard}", all.len());
+    println!("\n## Ranges\n\n| over all materials | from | to |\n|---|---|---|");
     for (what, hard, of) in [
         (
-            "cosine",
+            "cosine between the slowest and the fastest trace",
             false,
             &(|b: &Bank| b.cosine) as &dyn Fn(&Bank) -> f64,
         ),
-        ("cosine, hard", true, &|b| b.cosine),
-        ("exponent of the peak", false, &|b| b.peak_exponent),
-        ("centroid of the fastest, Hz", false, &|b| b.centroid_hz[12]),
+        ("the same above 500 MPa", true, &|b| b.cosine),
         (
-            "contact time over Hertz's, largest error, hard",
+            "exponent of the peak in the speed, Hertz 1.2",
+            false,
+            &|b| b.peak_exponent,
+        ),
+        (
+            "contact time against Hertz's, worst speed, above 500 MPa",
             true,
             &|b| b.contact_error().unwrap_or(f64::NAN),
         ),
         ("error between speeds", false, &|b| b.between[0]),
-        ("that over the nearest trace's", false, &|b| {
+        ("the same over the nearest trace's", false, &|b| {
             b.between[0] / b.between[1]
         }),
     ] {
         let (low, high) = range(of, hard);
-        println!("{what}: {low:.3} to {high:.3}");
+        // Errors are shares.
+        if what.starts_with("contact time") || what.starts_with("error") {
+            println!("| {what} | {:.1} % | {:.1} % |", 100.0 * low, 100.0 * high);
+        } else {
+            println!("| {what} | {low:.3} | {high:.3} |");
+        }
     }
 }
 
 fn modes(materials: &BTreeMap<String, Physical>) {
     println!(
-        "\n| measured (objects) | ours | first mode, Hz | ours | ratio | −60 dB, ms | ours | ratio | |"
+        "\n## Modes\n\n| measured (objects) | ours | first mode, Hz | ours | ratio | −60 dB, ms | ours | ratio | |"
     );
     println!("|---|---|---|---|---|---|---|---|---|");
     let mut squares = [[0.0; 3]; 2];
@@ -144,25 +137,22 @@ fn modes(materials: &BTreeMap<String, Physical>) {
         sums[1] += libm::log(decay).powi(2);
         sums[2] += 1.0;
     }
+    println!("\n## Mode errors\n\n| materials | frequency | decay |\n|---|---|---|");
     for (what, [freq, decay, count]) in ["used", "kept out"].iter().zip(squares) {
         let factor = |sum: f64| libm::exp((sum / count).sqrt());
-        println!(
-            "{what}: RMS factor {:.2} in frequency, {:.2} in decay",
-            factor(freq),
-            factor(decay)
-        );
+        println!("| {what} | {:.2} | {:.2} |", factor(freq), factor(decay));
     }
 }
 
-fn profiles(materials: &BTreeMap<String, Physical>) {
+fn profiles(constants: &Constants, materials: &BTreeMap<String, Physical>) {
     println!(
-        "\n| profile | ours | third octaves, dB RMS | slope, dB/octave | ours | heights alone, dB RMS |"
+        "\n## Profiles\n\n| profile | ours | third octaves, dB RMS | slope, dB/octave | ours | heights alone, dB RMS |"
     );
     println!("|---|---|---|---|---|---|");
     for (profile, ours) in profiles::PAIRS {
         let distance = materials
             .get(ours)
-            .and_then(|physical| profiles::distance(profile, physical));
+            .and_then(|physical| profiles::distance(constants, profile, physical));
         if let Some(distance) = distance {
             let [measured, generated] = distance.slope_db_per_octave;
             println!(

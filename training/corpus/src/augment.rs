@@ -1,9 +1,6 @@
 //! Augmented instances: the same material at another place of its sheet.
 
-use crate::{
-    Instance, UnifiedGrid,
-    generator::{self, Physical},
-};
+use crate::{Instance, generator::Physical};
 use rand_core::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
@@ -39,12 +36,12 @@ impl Default for Augmentation {
     }
 }
 
-/// The instances of material `index`. `prototypes` are the unaugmented materials, whose taps are
-/// mixed in.
+/// The instances of material `index`, each made of its varied parameters. `prototypes` are the
+/// unaugmented materials, whose taps are mixed in.
 #[must_use]
 pub fn instances(
     physical: &Physical,
-    grid: &UnifiedGrid,
+    make: impl Fn(&Physical) -> Instance,
     prototypes: &[Instance],
     index: usize,
     count: usize,
@@ -65,7 +62,7 @@ pub fn instances(
                     * libm::exp(augmentation.spread * draws.normal()),
                 ..*physical
             };
-            let mut instance = generator::instance(&varied, grid);
+            let mut instance = make(&varied);
             for level_db in &mut instance.level_db {
                 *level_db += (augmentation.bin_level_db * draws.normal()) as f32;
             }

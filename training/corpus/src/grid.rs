@@ -1,6 +1,10 @@
 //! The unified speed–force grid that all materials of a corpus share.
 
-use crate::BINS;
+use crate::{BINS, Instance, ORDER, SAMPLE_RATE_HZ};
+use asperity::{
+    learned::{DecodedGrid, description::GridDescription, texture},
+    model::ModelGrid,
+};
 use serde::{Deserialize, Serialize};
 
 /// Centre of a bin.
@@ -44,5 +48,30 @@ impl UnifiedGrid {
             max_speed_mm_s: 240.0,
             max_force_n: 3.2,
         }
+    }
+
+    /// The grid as a model describes it.
+    #[must_use]
+    pub fn description(&self) -> GridDescription {
+        GridDescription {
+            order: ORDER,
+            sample_rate_hz: SAMPLE_RATE_HZ,
+            speeds_mm_s: self.bins.iter().map(|bin| bin.speed_mm_s).collect(),
+            forces_n: self.bins.iter().map(|bin| bin.force_n).collect(),
+            max_speed_mm_s: self.max_speed_mm_s,
+            max_force_n: self.max_force_n,
+        }
+    }
+}
+
+impl Instance {
+    /// The models of the bins, with edge models around them, as the compiler lays them out.
+    #[must_use]
+    pub fn grid(&self, description: &GridDescription) -> ModelGrid {
+        let decoded = DecodedGrid {
+            lsf_rad: self.lsf_rad.as_flattened().to_vec(),
+            level_db: self.level_db.to_vec(),
+        };
+        texture::grid(description, &decoded)
     }
 }

@@ -14,9 +14,9 @@ pub mod leaks;
 mod material;
 pub mod measured;
 pub mod reference;
-pub mod statistics;
 
 pub use error::CorpusError;
+pub use generator::constants::ConstantSet;
 pub use grid::{Bin, UnifiedGrid};
 pub use material::{Caption, Corpus, Focus, Instance, Material, Rating};
 

@@ -2,14 +2,10 @@
 
 use asperity::{
     attributes::Meter,
-    learned::{
-        DecodedGrid,
-        description::{GridDescription, ModelDescription},
-        texture,
-    },
+    learned::description::{GridDescription, ModelDescription},
     spectrum::trace_centroid_hz,
 };
-use asperity_corpus::{Corpus, Instance, ORDER, SAMPLE_RATE_HZ, TAP_RATE_HZ, TAPS, UnifiedGrid};
+use asperity_corpus::{Corpus, Instance, TAP_RATE_HZ, TAPS};
 
 /// What all instances of a corpus share: where their bins and their traces lie.
 #[derive(Debug, Clone)]
@@ -23,7 +19,7 @@ impl Layout {
     /// The layout of a corpus.
     pub(crate) fn of(corpus: &Corpus) -> Self {
         Self {
-            grid: grid(&corpus.grid),
+            grid: corpus.grid.description(),
             speeds_m_s: corpus.tap_speeds_m_s,
         }
     }
@@ -34,18 +30,6 @@ impl Layout {
             grid: description.grid.clone(),
             speeds_m_s,
         }
-    }
-}
-
-/// A grid as a model describes it.
-pub(crate) fn grid(grid: &UnifiedGrid) -> GridDescription {
-    GridDescription {
-        order: ORDER,
-        sample_rate_hz: SAMPLE_RATE_HZ,
-        speeds_mm_s: grid.bins.iter().map(|bin| bin.speed_mm_s).collect(),
-        forces_n: grid.bins.iter().map(|bin| bin.force_n).collect(),
-        max_speed_mm_s: grid.max_speed_mm_s,
-        max_force_n: grid.max_force_n,
     }
 }
 
@@ -62,11 +46,7 @@ pub(crate) struct Attributes {
 
 /// The attributes of an instance; zero where something is silent.
 pub(crate) fn of(instance: &Instance, layout: &Layout) -> Attributes {
-    let decoded = DecodedGrid {
-        lsf_rad: instance.lsf_rad.as_flattened().to_vec(),
-        level_db: instance.level_db.to_vec(),
-    };
-    let vibration = Meter::default().vibration(&texture::grid(&layout.grid, &decoded));
+    let vibration = Meter::default().vibration(&instance.grid(&layout.grid));
     let fastest = instance.taps_m_s2[TAPS - 1].map(f64::from);
     Attributes {
         rough_db: vibration.map_or(0.0, |v| 10.0 * libm::log10(v.power)),

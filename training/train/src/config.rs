@@ -2,6 +2,7 @@
 
 mod validate;
 
+use asperity_corpus::ConstantSet;
 use asperity_io::diagnostic::Diagnostic;
 use serde::{Deserialize, Serialize};
 use std::{
@@ -54,6 +55,9 @@ pub struct CorpusChoice {
     pub kind: CorpusKind,
     /// Augmented instances a material.
     pub instances: usize,
+    /// Constants of the generator that makes the reference corpus.
+    #[serde(default)]
+    pub constants: ConstantSet,
 }
 
 /// The corpora there are.

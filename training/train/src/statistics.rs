@@ -92,33 +92,6 @@ pub(crate) fn median(values: &[f64]) -> f64 {
     }
 }
 
-/// Spearman's rank correlation, ties at their mean rank; `None` where one side does not
-/// vary.
-pub(crate) fn spearman(x: &[f64], y: &[f64]) -> Option<f64> {
-    let (x, y) = (ranks(x), ranks(y));
-    let (x_mean, y_mean) = (mean(&x), mean(&y));
-    let sum = |a: &[f64], a_mean: f64, b: &[f64], b_mean: f64| -> f64 {
-        a.iter()
-            .zip(b)
-            .map(|(a, b)| (a - a_mean) * (b - b_mean))
-            .sum()
-    };
-    let scale = sum(&x, x_mean, &x, x_mean) * sum(&y, y_mean, &y, y_mean);
-    (scale > 0.0).then(|| sum(&x, x_mean, &y, y_mean) / scale.sqrt())
-}
-
-fn ranks(values: &[f64]) -> Vec<f64> {
-    let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
-    let mut ranks = vec![0.0; values.len()];
-    for tied in order.chunk_by(|&a, &b| values[a] == values[b]) {
-        let below = order.iter().filter(|&&i| values[i] < values[tied[0]]);
-        let rank = below.count() as f64 + 0.5 * (tied.len() as f64 - 1.0);
-        tied.iter().for_each(|&index| ranks[index] = rank);
-    }
-    ranks
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -128,13 +101,6 @@ mod tests {
         // Newcombe (1998), table I: 81 of 263.
         let share = Share::of((0..263).map(|n| n < 81));
         assert!((share.low - 0.2553).abs() < 1e-4 && (share.high - 0.3662).abs() < 1e-4);
-    }
-
-    #[test]
-    fn ranks_correlate_whatever_the_scale_and_ties_share_a_rank() {
-        assert_eq!(spearman(&[1.0, 2.0, 3.0], &[-9.0, 0.1, 900.0]), Some(1.0));
-        assert_eq!(spearman(&[1.0, 2.0], &[5.0, 5.0]), None);
-        assert_eq!(ranks(&[4.0, 1.0, 4.0]), [1.5, 0.0, 1.5]);
     }
 
     #[test]

@@ -9,8 +9,9 @@ use crate::{
     config::Memory,
     kernel_ridge::{KernelRidge, regress},
     rng::{Purpose, Stream},
-    statistics::{mean, spearman},
+    statistics::mean,
 };
+use asperity::quantile::rank_correlation;
 use asperity_corpus::{Corpus, Rating};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -119,7 +120,7 @@ pub(crate) fn measure(
         largest_group: largest(&group),
         r_squared: std::array::from_fn(|k| explained(&column(&said, k), &column(&asked.1, k))),
         spearman: std::array::from_fn(|k| {
-            spearman(&column(&said, k), &column(&asked.1, k)).unwrap_or_default()
+            rank_correlation(&column(&said, k), &column(&asked.1, k)).unwrap_or_default()
         }),
         calibration_error: calibration_error(&trials),
         trials,

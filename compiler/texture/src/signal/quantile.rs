@@ -37,6 +37,32 @@ pub fn mean(values: &[f64]) -> f64 {
     }
 }
 
+/// Spearman's ρ: the correlation of ranks, of which equal values share the mean. `None` where one side does not vary.
+#[must_use]
+pub fn rank_correlation(x: &[f64], y: &[f64]) -> Option<f64> {
+    let (x, y) = (ranks(x), ranks(y));
+    let (x_mean, y_mean) = (mean(&x), mean(&y));
+    let sum = |a: &[f64], a_mean: f64, b: &[f64], b_mean: f64| -> f64 {
+        let products = a.iter().zip(b).map(|(a, b)| (a - a_mean) * (b - b_mean));
+        products.sum()
+    };
+    let scale = sum(&x, x_mean, &x, x_mean) * sum(&y, y_mean, &y, y_mean);
+    (scale > 0.0).then(|| sum(&x, x_mean, &y, y_mean) / scale.sqrt())
+}
+
+fn ranks(values: &[f64]) -> Vec<f64> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
+    let mut ranks = vec![0.0; values.len()];
+    let mut below = 0;
+    for tied in order.chunk_by(|&a, &b| values[a] == values[b]) {
+        let rank = below as f64 + 0.5 * (tied.len() as f64 - 1.0);
+        tied.iter().for_each(|&index| ranks[index] = rank);
+        below += tied.len();
+    }
+    ranks
+}
+
 /// Counts of magnitudes in eighths of an octave: quantiles of a stream in bounded memory.
 #[derive(Debug, Clone)]
 pub struct Magnitudes {
@@ -94,6 +120,18 @@ impl Magnitudes {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn any_rising_law_has_the_rank_correlation_one() {
+        let x: [f64; 5] = [3.0, 1.0, 4.0, 1.5, 9.0];
+        let of = |y: &[f64]| rank_correlation(&x, y);
+        assert!((of(&x.map(|x| x * x * x)).unwrap() - 1.0).abs() < 1e-12);
+        assert!((of(&x.map(|x| -x)).unwrap() + 1.0).abs() < 1e-12);
+        assert_eq!(of(&[2.0; 5]), None);
+        // Ties share their mean rank.
+        let tied = rank_correlation(&[1.0, 2.0, 3.0], &[1.0, 2.0, 2.0]).unwrap();
+        assert!((tied - 0.75_f64.sqrt()).abs() < 1e-12, "{tied}");
+    }
 
     #[test]
     fn a_stream_has_the_quantiles_of_its_values() {

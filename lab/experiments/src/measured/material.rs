@@ -1,11 +1,12 @@
 //! Measured materials beside the textures that their names are compiled into.
 
-use super::signature::Signature;
+use super::{calibration::Generated, signature::Signature};
 use asperity::{
     attributes::{self, Attributes},
     model::TextureModel,
     prompt::{Options, PromptCompiler},
 };
+use asperity_corpus::{CorpusError, generator::Physical, hatt};
 use rayon::prelude::*;
 
 /// A measured material beside the texture of its name.
@@ -21,6 +22,10 @@ pub struct Material {
     pub compiled: Vibration,
     /// Objective attributes of that texture.
     pub attributes: Attributes,
+    /// Parameters of the material of the reference corpus that the name means.
+    pub physical: Option<Physical>,
+    /// What the generator predicts.
+    pub generated: Option<Generated>,
 }
 
 /// Vibration and friction of a texture.
@@ -51,13 +56,18 @@ pub struct Materials {
 }
 
 /// Compiles each measured model by name. `step` is called once a model.
+///
+/// # Errors
+/// [`CorpusError`] of the committed names.
 pub fn compile_by_name(
     models: &[TextureModel],
     prompt_compiler: &PromptCompiler,
     step: impl Fn() + Sync,
-) -> Materials {
+) -> Result<Materials, CorpusError> {
+    let physical = hatt::physical_by_name()?;
     let compile = |model: &TextureModel| {
-        let compiled = material(model, prompt_compiler);
+        let physical = physical.get(&model.name).copied();
+        let compiled = material(model, physical, prompt_compiler);
         step();
         compiled.map_err(|reason| (model.name.clone(), reason))
     };
@@ -65,10 +75,14 @@ pub fn compile_by_name(
         Ok(material) => rayon::iter::Either::Left(material),
         Err(reason) => rayon::iter::Either::Right(reason),
     });
-    Materials { compared, left_out }
+    Ok(Materials { compared, left_out })
 }
 
-fn material(model: &TextureModel, prompt_compiler: &PromptCompiler) -> Result<Material, String> {
+fn material(
+    model: &TextureModel,
+    physical: Option<Physical>,
+    prompt_compiler: &PromptCompiler,
+) -> Result<Material, String> {
     let prompt = prompt(&model.name).ok_or("its name holds no word to compile")?;
     let texture = prompt_compiler
         .compile(&prompt, &Options::default().without_preview())
@@ -80,6 +94,8 @@ fn material(model: &TextureModel, prompt_compiler: &PromptCompiler) -> Result<Ma
         measured: Vibration::of(model),
         compiled: Vibration::of(&texture),
         attributes: attributes::of(&texture),
+        physical,
+        generated: None,
     })
 }
 

@@ -10,11 +10,14 @@
 //! | [`signature`] | band levels, and differences between them |
 //! | [`material`] | both sides of a material |
 //! | [`prediction`] | the prompt and the baselines, among them a `ridge` regression |
+//! | [`calibration`] | the constants of the generator, fitted by `least_squares` |
 //! | [`score`] | medians over materials, with intervals |
 //! | [`trend`] | mean spectra, slopes over force and speed, friction |
 //! | [`markdown`], [`chart`] | tables and a picture |
 
+pub mod calibration;
 pub mod chart;
+mod least_squares;
 pub mod markdown;
 pub mod material;
 pub mod prediction;
@@ -38,6 +41,8 @@ pub struct Comparison {
     pub names: usize,
     /// Every method that predicts a material.
     pub scores: Vec<score::Score>,
+    /// The constants of the generator; `None` of fewer than [`trend::FEWEST`].
+    pub constants: Option<Vec<calibration::FittedConstant>>,
     /// Over all materials; `None` of fewer than [`trend::FEWEST`].
     pub trends: Option<trend::Trends>,
     /// Every material by its prompt.
@@ -49,7 +54,7 @@ pub struct Comparison {
 impl Comparison {
     /// Judges every method.
     #[must_use]
-    pub fn of(materials: &Materials) -> Self {
+    pub fn of(materials: &Materials, calibration: Option<&calibration::Calibration>) -> Self {
         let compared: &[Material] = &materials.compared;
         Self {
             materials: compared.len(),
@@ -61,6 +66,7 @@ impl Comparison {
                 .iter()
                 .filter_map(|method| score::score(*method, compared))
                 .collect(),
+            constants: calibration.map(|fitted| fitted.constants.clone()),
             trends: trend::trends(compared),
             own: score::own(compared),
             left_out: materials.left_out.clone(),

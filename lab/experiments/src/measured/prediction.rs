@@ -12,6 +12,12 @@ use asperity::attributes::Attributes;
 pub enum Method {
     /// The texture of its name.
     Prompt,
+    /// The generator of the texture of the material that the name means, its constants fitted on all materials.
+    Generator,
+    /// The same, fitted on materials of other names.
+    GeneratorLeftOut,
+    /// The same, from physics and open data alone.
+    GeneratorOpen,
     /// The mean of all materials of other names.
     MeanOfOthers,
     /// Ridge regression on the attributes of the textures of names, fitted on all materials of other names.
@@ -22,8 +28,11 @@ pub enum Method {
 
 impl Method {
     /// Every method.
-    pub const ALL: [Self; 4] = [
+    pub const ALL: [Self; 7] = [
         Self::Prompt,
+        Self::Generator,
+        Self::GeneratorLeftOut,
+        Self::GeneratorOpen,
         Self::MeanOfOthers,
         Self::Attributes,
         Self::OtherSpecimen,
@@ -34,6 +43,9 @@ impl Method {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Prompt => "the prompt",
+            Self::Generator => "the generator, fitted on all",
+            Self::GeneratorLeftOut => "the generator, names left out",
+            Self::GeneratorOpen => "the generator, from physics and open data alone",
             Self::MeanOfOthers => "the mean of the other materials",
             Self::Attributes => "ridge on four attributes of our textures, names left out",
             Self::OtherSpecimen => "the mean of the other specimens of the same name",
@@ -48,6 +60,9 @@ impl Method {
             let others = || materials.iter().filter(|m| m.prompt != of.prompt);
             match self {
                 Self::Prompt => Some(of.compiled.signature.clone()),
+                Self::Generator => Some(of.generated.as_ref()?.fitted.signature.clone()),
+                Self::GeneratorLeftOut => Some(of.generated.as_ref()?.left_out.signature.clone()),
+                Self::GeneratorOpen => Some(of.generated.as_ref()?.open.signature.clone()),
                 Self::MeanOfOthers => Signature::mean(others().map(|m| &m.measured.signature)),
                 Self::Attributes => {
                     let known = others().map(|m| (features(&m.attributes), cells(m)));

@@ -50,7 +50,7 @@ pub(super) fn predict<const N: usize>(
 }
 
 /// Solves a·x = b for a positive definite a, by Gaussian elimination.
-fn solve<const N: usize>(mut a: [[f64; N]; N], mut b: [f64; N]) -> [f64; N] {
+pub(super) fn solve<const N: usize>(mut a: [[f64; N]; N], mut b: [f64; N]) -> [f64; N] {
     for pivot in 0..N {
         let (top, known) = (a[pivot], b[pivot]);
         for (row, value) in a.iter_mut().zip(&mut b).skip(pivot + 1) {

@@ -31,6 +31,8 @@ fn named(prompt: &str, measured_db: &[f64], compiled_db: f64) -> Vec<Material> {
             hard_hz: Some(300.0),
             mu: 0.5,
         },
+        physical: None,
+        generated: None,
     };
     measured_db.iter().enumerate().map(specimen).collect()
 }
@@ -98,14 +100,14 @@ fn a_prompt_that_is_its_material_has_no_error_and_the_first_place() {
 fn a_small_folder_has_scores_and_no_means() {
     let mut materials = Materials::default();
     for n in 0..FEWEST {
-        let fewer = Comparison::of(&materials);
+        let fewer = Comparison::of(&materials, None);
         assert!(fewer.trends.is_none() && !markdown::tables(&fewer).contains("## Spectrum"));
         materials
             .compared
             .extend(named(&format!("thing {n}"), &[n as f64], 0.0));
     }
     materials.left_out.push(("42".into(), "no word".into()));
-    let all = Comparison::of(&materials);
+    let all = Comparison::of(&materials, None);
     assert!(markdown::tables(&all).contains("## Spectrum"));
     assert_eq!(
         (all.materials, all.names, all.left_out.len()),

@@ -6,7 +6,7 @@ use super::{
     score::{Figure, figure, names},
     signature::{BANDS, MIDDLE, centre_hz},
 };
-use asperity_recording::signal::quantile::{mean, median};
+use asperity::quantile::{mean, median, rank_correlation};
 use serde::Serialize;
 use std::array;
 
@@ -22,13 +22,15 @@ pub struct Spread {
     pub deviation: f64,
 }
 
-/// The same figure of measured models and of the textures of their names.
+/// The same figure of measured models and of what is predicted of them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Both<T> {
+pub struct Beside<T> {
     /// Measured.
     pub measured: T,
     /// Compiled by name.
     pub compiled: T,
+    /// By the generator, names left out; `None` where fewer than [`FEWEST`] are known to it.
+    pub generated: Option<T>,
 }
 
 /// Trends over all materials.
@@ -37,13 +39,13 @@ pub struct Trends {
     /// Centre of each third octave, Hz.
     pub bands_hz: [f64; BANDS],
     /// Mean level of each at 100 mm/s and 1 N, dB re 1 (m/s²)².
-    pub spectrum_db: Both<[f64; BANDS]>,
+    pub spectrum_db: Beside<[f64; BANDS]>,
     /// Level of the whole band there.
-    pub level_db: Both<Spread>,
+    pub level_db: Beside<Spread>,
     /// Rise of that level from 0.5 to 2 N.
-    pub over_force_db: Both<Spread>,
+    pub over_force_db: Beside<Spread>,
     /// Rise of that level from 50 to 150 mm/s.
-    pub over_speed_db: Both<Spread>,
+    pub over_speed_db: Beside<Spread>,
     /// Friction.
     pub friction: Friction,
 }
@@ -52,13 +54,22 @@ pub struct Trends {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Friction {
     /// Median of μ.
-    pub mu: Both<f64>,
-    /// Mean of |Δμ| by the prompt.
+    pub mu: Beside<f64>,
+    /// Mean of |Δμ|.
+    pub error: Errors,
+    /// Spearman's rank correlation with the measured μ.
+    pub correlation: Errors,
+}
+
+/// A figure of each prediction of μ.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Errors {
+    /// By the prompt.
     pub prompt: Figure,
-    /// The same of a constant: the median of all materials of other names.
-    pub constant: Figure,
-    /// Spearman's rank correlation of the prompt's μ with the measured one.
-    pub correlation: Figure,
+    /// By the generator, names left out.
+    pub generated: Option<Figure>,
+    /// By a constant, the median of all materials of other names.
+    pub constant: Option<Figure>,
 }
 
 /// The trends; `None` of fewer than [`FEWEST`] materials.
@@ -67,65 +78,98 @@ pub fn trends(materials: &[Material]) -> Option<Trends> {
     if materials.len() < FEWEST {
         return None;
     }
-    let spectrum = |of: &dyn Fn(&Material) -> &Vibration| {
-        array::from_fn(|band| mean(&each(materials, |m| of(m).signature.0[MIDDLE][band])))
+    let known: Vec<&Vibration> = (materials.iter())
+        .filter_map(|m| Some(&m.generated.as_ref()?.left_out))
+        .collect();
+    let beside = Columns {
+        measured: materials.iter().map(|m| &m.measured).collect(),
+        compiled: materials.iter().map(|m| &m.compiled).collect(),
+        generated: (known.len() >= FEWEST).then_some(known),
     };
-    let both = |of: fn(&Vibration) -> f64| Both {
-        measured: spread(&each(materials, |m| of(&m.measured))),
-        compiled: spread(&each(materials, |m| of(&m.compiled))),
-    };
+    let spread_of = |of: fn(&Vibration) -> f64| beside.each(|all| spread(&each(all, of)));
     Some(Trends {
         bands_hz: array::from_fn(centre_hz),
-        spectrum_db: Both {
-            measured: spectrum(&|m| &m.measured),
-            compiled: spectrum(&|m| &m.compiled),
-        },
-        level_db: both(|v| v.signature.level_db(MIDDLE)),
-        over_force_db: both(|v| v.signature.over_force_db()),
-        over_speed_db: both(|v| v.signature.over_speed_db()),
-        friction: friction(materials),
+        spectrum_db: beside
+            .each(|all| array::from_fn(|band| mean(&each(all, |v| v.signature.0[MIDDLE][band])))),
+        level_db: spread_of(|v| v.signature.level_db(MIDDLE)),
+        over_force_db: spread_of(|v| v.signature.over_force_db()),
+        over_speed_db: spread_of(|v| v.signature.over_speed_db()),
+        friction: friction(materials, &beside),
     })
 }
 
-fn friction(materials: &[Material]) -> Friction {
+/// What is compared.
+struct Columns<'a> {
+    measured: Vec<&'a Vibration>,
+    compiled: Vec<&'a Vibration>,
+    generated: Option<Vec<&'a Vibration>>,
+}
+
+impl Columns<'_> {
+    fn each<T>(&self, of: impl Fn(&[&Vibration]) -> T) -> Beside<T> {
+        Beside {
+            measured: of(&self.measured),
+            compiled: of(&self.compiled),
+            generated: self.generated.as_deref().map(of),
+        }
+    }
+}
+
+fn friction(materials: &[Material], beside: &Columns<'_>) -> Friction {
     let constant = |of: &Material| {
         let others = materials.iter().filter(|m| m.prompt != of.prompt);
         median(others.map(|m| m.measured.mu))
     };
-    let rows: Vec<(usize, [f64; 3])> = names(materials)
-        .into_iter()
-        .zip(materials)
-        .map(|(name, m)| (name, [m.measured.mu, m.compiled.mu, constant(m)]))
-        .collect();
-    let of = |statistic: &dyn Fn(&[[f64; 3]]) -> f64| {
-        figure(
-            &rows,
-            |row| row.0,
-            |some| statistic(&some.iter().map(|row| row.1).collect::<Vec<_>>()),
-        )
+    // Measured and predicted.
+    let rows = |predicted: &dyn Fn(&Material) -> Option<f64>| -> Vec<(usize, [f64; 2])> {
+        (names(materials).into_iter().zip(materials))
+            .filter_map(|(name, m)| Some((name, [m.measured.mu, predicted(m)?])))
+            .collect()
     };
-    let error = |column: usize| {
-        of(&move |rows| {
-            let errors: Vec<f64> = rows.iter().map(|mu| (mu[column] - mu[0]).abs()).collect();
-            mean(&errors)
-        })
-    };
+    let prompt = rows(&|m| Some(m.compiled.mu));
+    let generated =
+        (beside.generated.as_ref()).map(|_| rows(&|m| Some(m.generated.as_ref()?.left_out.mu)));
     Friction {
-        mu: Both {
-            measured: median(rows.iter().map(|row| row.1[0])),
-            compiled: median(rows.iter().map(|row| row.1[1])),
+        mu: beside.each(|all| median(each(all, |v| v.mu))),
+        error: Errors {
+            prompt: mean_error(&prompt),
+            generated: generated.as_deref().map(mean_error),
+            constant: Some(mean_error(&rows(&|m| Some(constant(m))))),
         },
-        prompt: error(1),
-        constant: error(2),
-        correlation: of(&|rows| {
-            let column = |n: usize| rows.iter().map(|mu| mu[n]).collect::<Vec<_>>();
-            rank_correlation(&column(0), &column(1))
-        }),
+        correlation: Errors {
+            prompt: correlation(&prompt),
+            generated: generated.as_deref().map(correlation),
+            constant: None,
+        },
     }
 }
 
-fn each(materials: &[Material], of: impl Fn(&Material) -> f64) -> Vec<f64> {
-    materials.iter().map(of).collect()
+fn mean_error(rows: &[(usize, [f64; 2])]) -> Figure {
+    figure(
+        rows,
+        |row| row.0,
+        |some| {
+            let errors = some
+                .iter()
+                .map(|(_, [measured, found])| (measured - found).abs());
+            mean(&errors.collect::<Vec<_>>())
+        },
+    )
+}
+
+fn correlation(rows: &[(usize, [f64; 2])]) -> Figure {
+    figure(
+        rows,
+        |row| row.0,
+        |some| {
+            let column = |n: usize| some.iter().map(|row| row.1[n]).collect::<Vec<_>>();
+            rank_correlation(&column(0), &column(1)).unwrap_or_default()
+        },
+    )
+}
+
+fn each(all: &[&Vibration], of: impl Fn(&Vibration) -> f64) -> Vec<f64> {
+    all.iter().map(|vibration| of(vibration)).collect()
 }
 
 fn spread(values: &[f64]) -> Spread {
@@ -134,42 +178,5 @@ fn spread(values: &[f64]) -> Spread {
     Spread {
         mean,
         deviation: (square / values.len() as f64).sqrt(),
-    }
-}
-
-/// Spearman's ρ: the correlation of mid-ranks.
-fn rank_correlation(x: &[f64], y: &[f64]) -> f64 {
-    let ranks = |of: &[f64]| -> Vec<f64> {
-        let below = |x: &f64, or_equal: bool| {
-            let count = of
-                .iter()
-                .filter(|y| *y < x || (or_equal && *y == x))
-                .count();
-            count as f64
-        };
-        of.iter()
-            .map(|x| 0.5 * (below(x, false) + below(x, true)))
-            .collect()
-    };
-    let (x, y) = (ranks(x), ranks(y));
-    let (of_x, of_y) = (spread(&x), spread(&y));
-    let along: f64 = (x.iter().zip(&y))
-        .map(|(x, y)| (x - of_x.mean) * (y - of_y.mean))
-        .sum();
-    along / (x.len() as f64 * of_x.deviation * of_y.deviation)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::rank_correlation;
-
-    #[test]
-    fn any_rising_law_has_the_rank_correlation_one() {
-        let x: [f64; 5] = [3.0, 1.0, 4.0, 1.5, 9.0];
-        assert!((rank_correlation(&x, &x.map(|x| x * x * x)) - 1.0).abs() < 1e-12);
-        assert!((rank_correlation(&x, &x.map(|x| -x)) + 1.0).abs() < 1e-12);
-        // Ties share their mean rank.
-        let tied = rank_correlation(&[1.0, 2.0, 3.0], &[1.0, 2.0, 2.0]);
-        assert!((tied - 0.75_f64.sqrt()).abs() < 1e-12, "{tied}");
     }
 }

@@ -1,25 +1,27 @@
 //! The generator: it makes a texture from six physical parameters.
 //!
-//! 1. [`surface`]: the spectrum of heights along the stroke, filtered by the stylus tip, which
-//!    cannot follow relief that is finer than its contact.
+//! 1. [`surface`]: the spectrum of heights along the stroke, a line and a broad relief, averaged
+//!    over the contact.
 //! 2. [`transfer`]: heights at speed v become frequencies v·k; two derivatives make
-//!    them accelerations; the stylus on its contact is a damped resonator.
-//! 3. [`level`]: RMS acceleration at 100 mm/s and 1 N from height, wavelength and
-//!    stiffness, growing with speed and force by stated exponents.
+//!    them accelerations; the stylus on its contact is a damped resonator; a floor is below.
+//! 3. [`level`]: RMS acceleration from height and modulus, growing with speed and force.
 //! 4. [`ar`]: autocorrelation and Levinson's recursion to AR(21) under 1 + z⁻¹.
 //! 5. [`tap`]: the transients of impacts, by Hertz's contact and the modes of the surface.
+//! 6. [`friction`]: the coefficient of friction.
 //!
-//! Everything it makes is synthetic. Constants marked *calibrated* were set so that
-//! percentiles over all materials resemble those of HaTT (aggregates only; see
-//! `docs/corpus.md`).
+//! Everything it makes is synthetic. Its global constants are in [`constants`]; `docs/corpus.md`
+//! says what they were calibrated on.
 
 pub mod ar;
+pub mod constants;
+pub mod friction;
 pub mod level;
 pub mod surface;
 pub mod tap;
 pub mod transfer;
 
 use crate::{BINS, Instance, ORDER, TAPS, UnifiedGrid};
+use constants::Constants;
 
 /// Physical parameters of a surface under a stylus.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,8 +36,20 @@ pub struct Physical {
     pub modulus_mpa: f64,
     /// Loss factor of the material.
     pub loss_factor: f64,
-    /// Coefficient of kinetic friction of a steel tip.
+    /// Coefficient of kinetic friction of a steel tip, as the corpus states it.
     pub mu: f64,
+}
+
+impl Physical {
+    /// Decades of modulus above 10 MPa.
+    fn hardness_decades(&self) -> f64 {
+        libm::log10(self.modulus_mpa / 10.0)
+    }
+
+    /// Decades of height above 5 µm.
+    fn height_decades(&self) -> f64 {
+        libm::log10(self.height_um / 5.0)
+    }
 }
 
 /// Impact speeds of the bank, m/s: 0.025 to 0.325, as for imported textures.
@@ -46,13 +60,13 @@ pub fn tap_speeds_m_s() -> [f64; TAPS] {
 
 /// The texture of a surface on a grid.
 #[must_use]
-pub fn instance(physical: &Physical, grid: &UnifiedGrid) -> Instance {
+pub fn instance(constants: &Constants, physical: &Physical, grid: &UnifiedGrid) -> Instance {
     let mut lsf_rad = [[0.0; ORDER]; BINS];
     let mut level_db = [0.0; BINS];
     for (index, bin) in grid.bins.iter().enumerate() {
-        let shape = transfer::spectrum(physical, bin.speed_mm_s, bin.force_n);
+        let shape = transfer::spectrum(constants, physical, *bin);
         lsf_rad[index] = ar::lsf(&shape);
-        level_db[index] = level::rms_db(physical, bin.speed_mm_s, bin.force_n) as f32;
+        level_db[index] = level::rms_db(constants, physical, *bin) as f32;
     }
     Instance {
         lsf_rad,

@@ -1,6 +1,6 @@
 //! Our captions for HaTT's materials; only the names are HaTT's.
 
-use crate::{Caption, CorpusError};
+use crate::{Caption, CorpusError, generator::Physical, reference};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -23,12 +23,34 @@ pub(super) struct Captioned {
     pub name: String,
     /// Family, one that [`super::tap::loss_factor`] knows.
     pub family: String,
+    /// Material of the reference corpus that the name means.
+    pub reference: String,
     /// Our estimate of hardness, 0–100.
     pub hard: f64,
     /// Captions to train on.
     pub training: Vec<Caption>,
     /// Captions never trained on.
     pub held_out: Vec<String>,
+}
+
+/// What the material that each name of HaTT means has for physical parameters in the reference corpus.
+///
+/// # Errors
+/// [`CorpusError::Syntax`], [`CorpusError::Faults`] for a `reference` that no material has.
+pub fn physical_by_name() -> Result<BTreeMap<String, Physical>, CorpusError> {
+    let known = reference::physical()?;
+    let mut found = BTreeMap::new();
+    for (name, captioned) in all()? {
+        let Some(physical) = known.get(&captioned.reference) else {
+            let what = format!(
+                "{FILE}: {name}: reference = {:?} is no material",
+                captioned.reference
+            );
+            return Err(CorpusError::Faults { faults: vec![what] });
+        };
+        found.insert(name, *physical);
+    }
+    Ok(found)
 }
 
 /// All captioned materials by name.

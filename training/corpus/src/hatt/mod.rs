@@ -26,6 +26,7 @@ mod tap;
 #[cfg(test)]
 mod tests;
 
+pub use captions::physical_by_name;
 pub use error::HattCorpusError;
 
 use crate::{

@@ -3,16 +3,22 @@
 //! Both are drawn at 100 mm/s under 1 N: heights at v·k, the tip, two derivatives, stylus and hand,
 //! the floor. What is compared is the power in third octaves, the mean difference taken off.
 
-use crate::generator::{
-    Physical,
-    surface::{relief_power, tip_gain},
-    transfer::{self, POINTS},
+use crate::{
+    Bin,
+    generator::{
+        Physical,
+        constants::Constants,
+        surface::relief_power,
+        transfer::{self, POINTS},
+    },
 };
 use std::collections::BTreeMap;
 
 const PROFILES_CSV: &str = include_str!("../../../corpora/measured/profiles.csv");
-const SPEED_MM_S: f64 = 100.0;
-const FORCE_N: f64 = 1.0;
+const STROKE: Bin = Bin {
+    speed_mm_s: 100.0,
+    force_n: 1.0,
+};
 /// Third octaves: 16 to 400 Hz, as decades of a hertz in tenths.
 const BANDS: std::ops::RangeInclusive<i32> = 12..=26;
 
@@ -74,21 +80,25 @@ pub fn profiles() -> BTreeMap<&'static str, Vec<Point>> {
 
 /// How far a measured profile is from a surface; `None` for an unknown profile.
 #[must_use]
-pub fn distance(profile: &str, physical: &Physical) -> Option<Distance> {
+pub fn distance(constants: &Constants, profile: &str, physical: &Physical) -> Option<Distance> {
     let profiles = profiles();
     let points = profiles.get(profile)?;
-    Some(distance_of(physical, |k_per_mm| {
+    Some(distance_of(constants, physical, |k_per_mm| {
         density_at(points, k_per_mm)
     }))
 }
 
 /// How far heights of a given density are from a surface's own.
 #[must_use]
-pub fn distance_of(physical: &Physical, density_at: impl Fn(f64) -> f64) -> Distance {
-    let own_heights = |k: f64| relief_power(physical, k);
-    let measured = third_octaves_db(physical, &density_at);
-    let own = third_octaves_db(physical, own_heights);
-    let centres = || BANDS.map(|band| libm::exp10(f64::from(band) / 10.0) / SPEED_MM_S);
+pub fn distance_of(
+    constants: &Constants,
+    physical: &Physical,
+    density_at: impl Fn(f64) -> f64,
+) -> Distance {
+    let own_heights = |k: f64| relief_power(constants, physical, k);
+    let measured = third_octaves_db(constants, physical, &density_at);
+    let own = third_octaves_db(constants, physical, own_heights);
+    let centres = || BANDS.map(|band| libm::exp10(f64::from(band) / 10.0) / STROKE.speed_mm_s);
     let heights = centres().map(|k| decibels(density_at(k)) - decibels(own_heights(k)));
     let differences = measured.iter().zip(&own).map(|(x, y)| x - y);
     Distance {
@@ -99,11 +109,12 @@ pub fn distance_of(physical: &Physical, density_at: impl Fn(f64) -> f64) -> Dist
 }
 
 /// Mean power in the third octaves of the acceleration that heights cause, dB.
-fn third_octaves_db(physical: &Physical, heights: impl Fn(f64) -> f64) -> Vec<f64> {
-    let spectrum = transfer::spectrum_over(physical, SPEED_MM_S, FORCE_N, |k| {
-        let tip = tip_gain(physical, k, FORCE_N);
-        heights(k) * tip * tip
-    });
+fn third_octaves_db(
+    constants: &Constants,
+    physical: &Physical,
+    heights: impl Fn(f64) -> f64,
+) -> Vec<f64> {
+    let spectrum = transfer::spectrum_over(constants, physical, STROKE, heights);
     let width_hz = 0.5 * crate::SAMPLE_RATE_HZ / POINTS as f64;
     BANDS
         .map(|band| {

@@ -10,11 +10,17 @@ use crate::{
     Corpus, Material, UnifiedGrid,
     augment::{self, Augmentation},
     error::CorpusError,
-    generator,
+    generator::{
+        self, Physical,
+        constants::{ConstantSet, Constants},
+    },
 };
 use asperity_io::input::{self, Kind};
 use rayon::prelude::*;
-use std::path::{Path, PathBuf};
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+};
 
 pub use lexicon::LexiconEntry;
 
@@ -85,6 +91,8 @@ const EMBEDDED_LEXICON: &[(&str, &str)] = embedded![
     "lexicon/vehicles.csv",
     "lexicon/words.csv",
 ];
+/// In the same folder but no part of the corpus: prompts of the evaluation, constants of the generator.
+const BESIDE: [&str; 3] = ["pairs.toml", "probes.toml", "generator.toml"];
 /// The lexicon beside the family files of a folder, and the folder of its further files.
 const LEXICON_FILE: &str = "everyday.toml";
 const LEXICON_FOLDER: &str = "lexicon";
@@ -102,6 +110,8 @@ pub struct ReferenceOptions {
     pub augmentation: Augmentation,
     /// Seed of the augmentation.
     pub seed: u64,
+    /// Constants of the generator.
+    pub constants: ConstantSet,
 }
 
 impl Default for ReferenceOptions {
@@ -111,6 +121,7 @@ impl Default for ReferenceOptions {
             instances: 20,
             augmentation: Augmentation::default(),
             seed: 1,
+            constants: ConstantSet::default(),
         }
     }
 }
@@ -121,8 +132,8 @@ impl Default for ReferenceOptions {
 /// [`CorpusError`] with every fault found, by file, material and field.
 pub fn load(options: &ReferenceOptions) -> Result<(Corpus, Vec<LexiconEntry>), CorpusError> {
     let sources = sources(options.folder.as_deref())?;
-    let mut digest = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
-    let crc32 = checksum(&mut digest, &sources);
+    let constants = Constants::embedded(options.constants)?;
+    let crc32 = checksum(&sources, &constants);
     let (lexicon, families): (Vec<_>, Vec<_>) =
         sources.iter().partition(|(file, _)| is_lexicon(file));
     let lexicon = lexicon
@@ -145,9 +156,10 @@ pub fn load(options: &ReferenceOptions) -> Result<(Corpus, Vec<LexiconEntry>), C
                 .map(move |entry| (name.clone(), entry))
         })
         .collect();
+    let make = |physical: &Physical| generator::instance(&constants, physical, &grid);
     let prototypes: Vec<_> = described
         .par_iter()
-        .map(|(_, entry)| generator::instance(&entry.physical.values(), &grid))
+        .map(|(_, entry)| make(&entry.physical.values()))
         .collect();
     let materials = described
         .into_par_iter()
@@ -156,7 +168,7 @@ pub fn load(options: &ReferenceOptions) -> Result<(Corpus, Vec<LexiconEntry>), C
             let physical = entry.physical.values();
             let instances = augment::instances(
                 &physical,
-                &grid,
+                make,
                 &prototypes,
                 index,
                 options.instances,
@@ -169,7 +181,7 @@ pub fn load(options: &ReferenceOptions) -> Result<(Corpus, Vec<LexiconEntry>), C
                 training: entry.training,
                 held_out: entry.held_out,
                 rating: Some(entry.attributes),
-                mu: physical.mu,
+                mu: generator::friction::mu(&constants, &physical),
                 stiffness_n_m: generator::wall_stiffness_n_m(&physical),
                 prototype: prototypes[index].clone(),
                 instances,
@@ -180,7 +192,14 @@ pub fn load(options: &ReferenceOptions) -> Result<(Corpus, Vec<LexiconEntry>), C
     Ok((
         Corpus {
             name: "reference".into(),
-            licence: "MIT OR Apache-2.0 (written for Asperity; textures are synthetic)".into(),
+            licence: format!(
+                "MIT OR Apache-2.0 (written for Asperity; textures are synthetic, by a generator \
+                 whose constants are {})",
+                match options.constants {
+                    ConstantSet::Calibrated => "calibrated on aggregates of measured materials",
+                    ConstantSet::Open => "from physics and open data",
+                }
+            ),
             crc32,
             grid,
             tap_speeds_m_s: generator::tap_speeds_m_s(),
@@ -189,6 +208,19 @@ pub fn load(options: &ReferenceOptions) -> Result<(Corpus, Vec<LexiconEntry>), C
         },
         lexicon,
     ))
+}
+
+/// The physical parameters of every material of the committed corpus, by its name.
+///
+/// # Errors
+/// [`CorpusError::Syntax`].
+pub fn physical() -> Result<BTreeMap<String, Physical>, CorpusError> {
+    let mut all = BTreeMap::new();
+    for (file, text) in EMBEDDED {
+        let materials = schema::parse(file, text)?.material.into_iter();
+        all.extend(materials.map(|m| (m.name, m.physical.values())));
+    }
+    Ok(all)
 }
 
 /// Whether a file, named from the folder, belongs to the lexicon.
@@ -217,10 +249,8 @@ fn sources(folder: Option<&Path>) -> Result<Vec<(String, String)>, CorpusError> 
         let name = path
             .file_name()
             .map(|name| name.to_string_lossy().into_owned());
-        // Prompts of the evaluation are in the same folder but do not belong to the corpus.
         if let (true, Some(name)) = (is_toml, name)
-            && name != "pairs.toml"
-            && name != "probes.toml"
+            && !BESIDE.contains(&name.as_str())
         {
             let text = input::read_text(&path, Kind::Corpus)
                 .map_err(|problem| unreadable(&path)(problem.into()))?;
@@ -262,11 +292,15 @@ fn lexicon_files(folder: &Path) -> Result<Vec<(String, String)>, CorpusError> {
     Ok(all)
 }
 
-fn checksum(crc: &mut crc::Crc<u32>, sources: &[(String, String)]) -> u32 {
+fn checksum(sources: &[(String, String)], constants: &Constants) -> u32 {
+    let crc = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
     let mut digest = crc.digest();
     for (name, text) in sources {
         digest.update(name.as_bytes());
         digest.update(text.as_bytes());
+    }
+    for value in constants.to_array() {
+        digest.update(&value.to_le_bytes());
     }
     digest.finalize()
 }

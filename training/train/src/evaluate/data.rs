@@ -23,7 +23,7 @@ pub(super) fn training(
     source: &CorpusSource,
     config: &Config,
 ) -> Result<(Corpus, Vec<LexiconEntry>), EvaluateError> {
-    load(source, config.corpus.instances, config.seed, 0)
+    load(source, config, config.corpus.instances, config.seed, 0)
 }
 
 /// As many instances of every material again, drawn as the others were, seen by nobody.
@@ -31,13 +31,14 @@ pub(super) fn unseen(source: &CorpusSource, config: &Config) -> Result<Corpus, E
     let count = config.corpus.instances;
     match source {
         // Another seed draws others of the same kind.
-        CorpusSource::Reference(_) => Ok(load(source, count, !config.seed, 0)?.0),
-        CorpusSource::Hatt(_) => Ok(load(source, count, config.seed, count)?.0),
+        CorpusSource::Reference(_) => Ok(load(source, config, count, !config.seed, 0)?.0),
+        CorpusSource::Hatt(_) => Ok(load(source, config, count, config.seed, count)?.0),
     }
 }
 
 fn load(
     source: &CorpusSource,
+    config: &Config,
     instances: usize,
     seed: u64,
     first_instance: usize,
@@ -45,6 +46,7 @@ fn load(
     let mut options = ReferenceOptions {
         instances,
         seed,
+        constants: config.corpus.constants,
         ..ReferenceOptions::default()
     };
     match source {

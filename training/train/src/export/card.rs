@@ -146,7 +146,8 @@ fn card(
         text,
         "A prompt far from every caption gets a mixture of known materials; `certainty` in \
          `model.json` says how far. What it says of friction is read from the nearest \
-         materials. Nothing was felt by people on a device.\n"
+         materials. `docs/evaluation/measured.md` says how near a name comes to the measured \
+         material. Nothing was felt by people on a device.\n"
     )?;
     writeln!(
         text,

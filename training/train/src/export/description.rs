@@ -41,7 +41,7 @@ pub(super) fn describe(trained: &Trained, corpus: &Corpus, metrics: &Metrics) ->
             width: trained.width,
         },
         seed: config.seed,
-        grid: attributes::grid(&corpus.grid),
+        grid: corpus.grid.description(),
         taps: TapDescription {
             sample_rate_hz: TAP_RATE_HZ,
             speeds_m_s: corpus.tap_speeds_m_s.to_vec(),

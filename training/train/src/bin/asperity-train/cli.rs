@@ -1,6 +1,7 @@
 //! What can be typed.
 
 use asperity::{inference::BackendName, text::TextEncoderChoice};
+use asperity_corpus::ConstantSet;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::{num::NonZeroUsize, path::PathBuf};
 
@@ -42,6 +43,9 @@ pub(crate) struct Fit {
     /// this option implies
     #[arg(long, value_name = "DIR")]
     pub(crate) hatt: Option<PathBuf>,
+    /// Constants of the generator that makes the reference corpus, instead of the configuration's
+    #[arg(long, value_name = "SET")]
+    pub(crate) constants: Option<Constants>,
     /// Instead of the configuration's
     #[arg(long)]
     pub(crate) seed: Option<u64>,
@@ -75,6 +79,23 @@ pub(crate) struct Fit {
     /// Print the metrics as JSON
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Constants {
+    /// Fitted to measured materials, as aggregates
+    Calibrated,
+    /// From physics and openly licensed measurements alone
+    Open,
+}
+
+impl From<Constants> for ConstantSet {
+    fn from(set: Constants) -> Self {
+        match set {
+            Constants::Calibrated => Self::Calibrated,
+            Constants::Open => Self::Open,
+        }
+    }
 }
 
 #[derive(Debug, Args)]

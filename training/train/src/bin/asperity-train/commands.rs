@@ -164,6 +164,9 @@ fn configuration(args: &cli::Fit) -> Result<Config, Failure> {
     if args.hatt.is_some() {
         config.corpus.kind = CorpusKind::Hatt;
     }
+    if let Some(constants) = args.constants {
+        config.corpus.constants = constants.into();
+    }
     if let Some(seed) = args.seed {
         config.seed = seed;
     }
@@ -179,6 +182,7 @@ fn corpus(args: &cli::Fit, config: &Config) -> Result<(Corpus, Vec<LexiconEntry>
         folder: args.corpus.clone(),
         instances: config.corpus.instances,
         seed: config.seed,
+        constants: config.corpus.constants,
         ..ReferenceOptions::default()
     };
     if config.corpus.kind == CorpusKind::Reference {

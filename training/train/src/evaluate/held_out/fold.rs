@@ -9,12 +9,7 @@ use crate::{
     captions::{Captions, dot},
     config::Config,
     error::FitError,
-    evaluate::{
-        EvaluateError, Watch,
-        signature::Signature,
-        statistics::{mean, spearman},
-        watch::Training,
-    },
+    evaluate::{EvaluateError, Watch, signature::Signature, statistics::mean, watch::Training},
     fit::fit_on,
     trained::{Seen, Trained},
 };
@@ -23,6 +18,7 @@ use asperity::learned::{
     description::{Anchor, FrictionDescription},
     friction,
 };
+use asperity::quantile::rank_correlation;
 use asperity_corpus::{BINS, Corpus, Instance, ORDER, TAP_SAMPLES, TAPS};
 use serde::{Deserialize, Serialize};
 
@@ -198,7 +194,7 @@ impl Asked<'_> {
                 let column = |rows: &[[f64; 4]]| -> Vec<f64> {
                     rows.iter().map(|row| row[attribute]).collect()
                 };
-                spearman(&column(&said), &column(&truth))
+                rank_correlation(&column(&said), &column(&truth))
             })
         });
         Fold {
