@@ -2,7 +2,8 @@
 //!
 //! The latent of a text is a mixture of materials, and what a mixture decodes to follows the words
 //! less closely than a regression on the ratings themselves. Ratings become attributes by a line
-//! for each, fitted to the materials. A material's name is drawn to its own attributes, with the
+//! for each, fitted to the materials; a harder material of the same roughness vibrates more, and half of
+//! that counts. A material's name is drawn to its own attributes, with the
 //! weights `exp((e·e_i − 1)/τ)` of names beside those of phrases, which keep what the regression
 //! says: not by the recall of the latent, whose directions carry nothing about how a material feels.
 
@@ -13,12 +14,17 @@ use crate::{
     kernel_ridge::KernelRidge,
     lda_retrieval,
     material::MaterialLatent,
+    ridge::{self, Line},
 };
 use asperity_corpus::{Material, Rating};
 
 /// Rough, slippery and hard, as dB re 1 (m/s²)², −ln μ and ln Hz: the scales on which the compiler
 /// moves a texture.
 pub(crate) type Felt = [f32; 3];
+
+/// Share of what hardness adds to the level of a roughness that counts. People call rough what is deep: with all of it,
+/// deep and soft things fall behind hard and smooth ones.
+const HARD_SHARE: f64 = 0.5;
 
 /// A fitted regression on the examples of a [`KernelRidge`].
 #[derive(Debug, Clone, PartialEq)]
@@ -60,27 +66,21 @@ impl AttributeRegression {
         mut done: impl FnMut(usize, usize, f32),
     ) -> Option<Self> {
         let pairs = ratings.iter().zip(felt);
-        let rated: Vec<(Felt, Felt)> = pairs
+        let rated: Vec<([f64; 3], Felt)> = pairs
             .filter_map(|(rating, felt)| Some((numbers(rating.as_ref()?), *felt)))
             .collect();
         if rated.is_empty() || captions.lexicon.is_empty() {
             return None;
         }
-        let lines: [(f32, f32); 3] = std::array::from_fn(|k| {
-            let points: Vec<_> = rated.iter().map(|(r, felt)| (r[k], felt[k])).collect();
-            line(&points)
-        });
+        let by_ratings = ByRatings::fit(&rated);
         let (mut values, mut weights) = (Vec::new(), Vec::new());
         let mut of = Names::default();
-        let on_lines = |rating: &Rating| -> Felt {
-            let rating = numbers(rating);
-            std::array::from_fn(|k| lines[k].0 + lines[k].1 * rating[k])
-        };
+        let felt_as = |rating: &Rating| by_ratings.felt(&numbers(rating));
         for (owner, ((m, rating), felt)) in materials.iter().zip(ratings).zip(felt).enumerate() {
             let texts = captions.training[m.material].len();
             let names = captions.names[m.material];
             // By its rating, as the phrases: what lies off the lines is the recall's to add.
-            let value = rating.as_ref().map_or(*felt, on_lines);
+            let value = rating.as_ref().map_or(*felt, felt_as);
             for place in 0..texts {
                 let is_name = place >= texts - names;
                 if is_name {
@@ -97,7 +97,7 @@ impl AttributeRegression {
         }
         of.phrases_from = values.len();
         for phrase in &captions.lexicon {
-            values.push(on_lines(&phrase.rating));
+            values.push(felt_as(&phrase.rating));
             weights.push(phrase.weight);
         }
         let concentration = how.felt_concentration as f32;
@@ -149,31 +149,68 @@ pub(crate) fn of(material: &Material, layout: &Layout) -> Felt {
     ]
 }
 
-fn numbers(rating: &Rating) -> Felt {
-    [
-        rating.rough as f32,
-        rating.slippery as f32,
-        rating.hard as f32,
-    ]
+/// What ratings become.
+struct ByRatings {
+    /// Of each attribute in its own rating.
+    lines: [Line; 3],
+    /// dB for a step of the rated hardness.
+    level_per_hard: f64,
 }
 
-/// Least squares: offset and slope; flat where x does not vary.
-fn line(points: &[(f32, f32)]) -> (f32, f32) {
-    let count = points.len().max(1) as f32;
-    let mean_x = points.iter().map(|p| p.0).sum::<f32>() / count;
-    let mean_y = points.iter().map(|p| p.1).sum::<f32>() / count;
-    let (mut product, mut square) = (0.0, 0.0);
-    for (x, y) in points {
-        product += (x - mean_x) * (y - mean_y);
-        square += (x - mean_x) * (x - mean_x);
+impl ByRatings {
+    fn fit(rated: &[([f64; 3], Felt)]) -> Self {
+        let column = |k: usize| rated.iter().map(move |(_, felt)| f64::from(felt[k]));
+        let rough_and_hard: Vec<Vec<f64>> = rated.iter().map(|(r, _)| vec![r[0], r[2]]).collect();
+        let levels: Vec<f64> = column(0).collect();
+        let level_per_hard = HARD_SHARE * ridge::fit(&rough_and_hard, &levels).direction[1];
+        let lines = std::array::from_fn(|k| {
+            let points: Vec<Vec<f64>> = rated.iter().map(|(r, _)| vec![r[k]]).collect();
+            let counted = if k == 0 { level_per_hard } else { 0.0 };
+            let values = column(k)
+                .zip(rated)
+                .map(|(value, (r, _))| value - counted * r[2]);
+            ridge::fit(&points, &values.collect::<Vec<_>>())
+        });
+        Self {
+            lines,
+            level_per_hard,
+        }
     }
-    let slope = if square > 0.0 { product / square } else { 0.0 };
-    (mean_y - slope * mean_x, slope)
+
+    fn felt(&self, rating: &[f64; 3]) -> Felt {
+        let mut felt: [f64; 3] =
+            std::array::from_fn(|k| self.lines[k].offset + self.lines[k].direction[0] * rating[k]);
+        felt[0] += self.level_per_hard * rating[2];
+        felt.map(|value| value as f32)
+    }
+}
+
+fn numbers(rating: &Rating) -> [f64; 3] {
+    [rating.rough, rating.slippery, rating.hard]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn half_of_what_hardness_adds_to_a_level_counts_and_the_mean_stays() {
+        // Level = rough + 0.2·hard, no correlation between the two.
+        let rated: Vec<([f64; 3], Felt)> = (0..100)
+            .map(|n| (f64::from(10 * (n % 10)), f64::from(10 * (n / 10))))
+            .map(|(rough, hard)| {
+                let level = rough + 0.2 * hard;
+                ([rough, 50.0, hard], [level as f32, 1.0, 5.0 + hard as f32])
+            })
+            .collect();
+        let by_ratings = ByRatings::fit(&rated);
+        let of = |rough, hard| by_ratings.felt(&[rough, 50.0, hard]);
+        let near = |x: f32, y: f32| (x - y).abs() < 0.05;
+        assert!(near(of(50.0, 100.0)[0] - of(50.0, 0.0)[0], 10.0));
+        assert!(near(of(45.0, 45.0)[0], 54.0), "{:?}", of(45.0, 45.0));
+        assert_eq!(of(0.0, 0.0)[1], 1.0);
+        assert!(near(of(0.0, 40.0)[2], 45.0));
+    }
 
     #[test]
     fn a_name_feels_as_its_material_and_a_phrase_as_it_was_rated() {
@@ -209,12 +246,5 @@ mod tests {
             feel.draw(&how, &likeness, &mut felt);
             assert!((felt[1] - expected).abs() < 1e-3, "{} {expected}", felt[1]);
         }
-    }
-
-    #[test]
-    fn a_line_goes_through_its_points_and_is_flat_through_one() {
-        let (offset, slope) = line(&[(0.0, 1.0), (50.0, 2.0), (100.0, 3.0)]);
-        assert!((offset - 1.0).abs() < 1e-5 && (slope - 0.02).abs() < 1e-6);
-        assert_eq!(line(&[(7.0, 3.0)]), (3.0, 0.0));
     }
 }

@@ -38,6 +38,8 @@ pub(crate) struct Batch {
     pub(crate) epsilon: Vec<f32>,
     /// Which rows match.
     pub(crate) pairing: Pairing,
+    /// [B, B], the shares of the rows in each that the AR decoder gets; `None` where it gets them as they are.
+    pub(crate) mixing: Option<Tensor<2>>,
 }
 
 impl Batch {
@@ -84,6 +86,8 @@ impl Batch {
             ),
             epsilon: stream.normals(chosen.len() * LATENT),
             pairing: Pairing::new(&materials, device),
+            mixing: mixing(chosen.len(), augmentation.latent_mixup, stream)
+                .map(|shares| matrix(shares, chosen.len(), device)),
         }
     }
 }
@@ -95,6 +99,24 @@ fn modalities(withheld: f64, stream: &mut Stream) -> [f32; 2] {
         (true, false) => [1.0, 0.0],
         (true, true) => [0.0, 1.0],
     }
+}
+
+/// Shares of `rows` in each of them: with this probability a row is mixed with another, evenly over all mixtures.
+fn mixing(rows: usize, probability: f64, stream: &mut Stream) -> Option<Vec<f32>> {
+    if probability <= 0.0 {
+        return None;
+    }
+    let mut shares = vec![0.0; rows * rows];
+    for row in 0..rows {
+        let other = if stream.happens(probability) {
+            stream.uniform()
+        } else {
+            0.0
+        };
+        shares[row * rows + row] += 1.0 - other;
+        shares[row * rows + stream.below(rows)] += other;
+    }
+    Some(shares)
 }
 
 /// One of a material's captions, perhaps mixed with another, perhaps with noise.
@@ -136,6 +158,21 @@ mod tests {
         let count = |what| drawn.iter().filter(|present| **present == what).count();
         assert!((count([1.0, 1.0]) as f64 / 4000.0 - 0.5).abs() < 0.04);
         assert!((count([0.0, 1.0]) as f64 / 4000.0 - 0.25).abs() < 0.04);
+    }
+
+    #[test]
+    fn a_mixture_has_the_whole_of_two_rows() {
+        let mut stream = Stream::new(1, Purpose::Epoch, 0);
+        assert_eq!(mixing(8, 0.0, &mut stream), None);
+        let shares = mixing(64, 0.5, &mut stream).unwrap();
+        let mut mixed = 0;
+        for row in shares.chunks(64) {
+            assert!((row.iter().sum::<f32>() - 1.0).abs() < 1e-6);
+            let parts = row.iter().filter(|share| **share > 0.0).count();
+            assert!((1..=2).contains(&parts));
+            mixed += parts - 1;
+        }
+        assert!((16..48).contains(&mixed), "{mixed}");
     }
 
     #[test]

@@ -191,6 +191,10 @@ pub struct Augmentation {
     pub caption_noise: f64,
     /// Probability that a caption's vector is mixed with another's of its material.
     pub caption_mixup: f64,
+    /// Probability that the AR decoder gets a mixture of the latents of two instances and is asked for the same
+    /// mixture of their models: ours, so that textures change evenly between materials (Verma et al., 2019).
+    #[serde(default)]
+    pub latent_mixup: f64,
 }
 
 /// The second stage: the VAE stands, and a memory of captions and lexicon takes the place of the

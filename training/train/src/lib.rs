@@ -29,6 +29,7 @@ mod network;
 mod normaliser;
 mod parameters;
 mod progress;
+mod ridge;
 mod rng;
 mod statistics;
 #[cfg(test)]

@@ -109,7 +109,18 @@ impl State {
             .encoder
             .forward(&bound, ar.clone(), taps.clone(), batch.present);
         let z = posterior.sample(batch.epsilon);
-        let decoded = decode(network, &bound, run.normaliser, z.clone(), &mut mode);
+        let mixed = |x: Tensor<2>| match &batch.mixing {
+            Some(shares) => shares.clone().matmul(x),
+            None => x,
+        };
+        let ar = mixed(ar);
+        let (lsf_rad, excitation) =
+            (network.ar_decoder).forward(&bound, run.normaliser, mixed(z.clone()), &mut mode);
+        let decoded = Decoded {
+            lsf_rad,
+            excitation,
+            taps_m_s2: (network.tap_decoder).forward(&bound, run.normaliser, z.clone(), &mut mode),
+        };
         let said = normalised(run.normaliser, decoded);
         let lsf = smooth_l1(said.lsf_rad, ar.clone().narrow(1, 0, LSFS));
         let excitation = smooth_l1(said.excitation, ar.narrow(1, LSFS, BINS));

@@ -66,6 +66,7 @@ impl Config {
         rate("augmentation.modality_dropout", a.modality_dropout)?;
         weight("augmentation.caption_noise", a.caption_noise)?;
         probability("augmentation.caption_mixup", a.caption_mixup)?;
+        probability("augmentation.latent_mixup", a.latent_mixup)?;
         if let Some(stage) = &self.text_stage {
             text_stage(stage)?;
         }

@@ -1,10 +1,10 @@
 //! `model.json`.
 
-use super::ridge;
 use crate::{
     attributes::{self, Layout},
     certainty::certainty_curve,
     metrics::Metrics,
+    ridge,
     trained::Trained,
 };
 use asperity::learned::description::{

@@ -7,7 +7,6 @@ mod gain;
 mod graph;
 mod halves;
 mod networks;
-mod ridge;
 mod verify;
 
 use crate::{captions::Captions, metrics::Metrics, trained::Trained, weights};

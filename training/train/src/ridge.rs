@@ -5,15 +5,15 @@ const PENALTIES: [f64; 7] = [1e-4, 1e-3, 1e-2, 3e-2, 1e-1, 3e-1, 1.0];
 
 /// `y ≈ offset + direction · x`.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Line {
-    pub(super) offset: f64,
-    pub(super) direction: Vec<f64>,
+pub(crate) struct Line {
+    pub(crate) offset: f64,
+    pub(crate) direction: Vec<f64>,
     /// Share of the variance explained.
-    pub(super) r_squared: f64,
+    pub(crate) r_squared: f64,
 }
 
 /// The line through points; flat where `y` does not vary or nothing can be solved.
-pub(super) fn fit(points: &[Vec<f64>], y: &[f64]) -> Line {
+pub(crate) fn fit(points: &[Vec<f64>], y: &[f64]) -> Line {
     let columns = points.first().map_or(0, Vec::len);
     let count = points.len() as f64;
     let mean: Vec<f64> = (0..columns)
