@@ -1,7 +1,7 @@
 //! The constants of the generator, fitted to measured materials.
 //!
 //! Residuals are the levels of third octaves in all strokes and ln μ; the prior is what physics and open data say. The
-//! generator of a prediction has not seen its name: the names are left out in [`FOLDS`] parts.
+//! generator of a prediction has not seen its name: the names are left out in five parts.
 
 use super::{
     least_squares::{self, Fit},
