@@ -20,3 +20,4 @@ mod queries;
 mod rates;
 mod scene;
 mod support;
+mod unsafe_code;
