@@ -41,10 +41,10 @@ const PER_OCTAVE: usize = 6;
 /// What the generator predicts of a material.
 #[derive(Debug, Clone)]
 pub struct Generated {
-    /// With constants fitted on the materials of other names.
-    pub left_out: Vibration,
-    /// With constants fitted on all materials.
-    pub fitted: Vibration,
+    /// With the constants of the reference corpus.
+    pub shipped: Vibration,
+    /// With constants fitted on the materials of other names; `None` where no fit was made.
+    pub left_out: Option<Vibration>,
     /// With constants from physics and open data alone.
     pub open: Vibration,
 }
@@ -82,7 +82,7 @@ struct Observed<'a> {
     name: usize,
 }
 
-/// Fits the constants and fills in what the generator predicts of each material; `None` where fewer than [`FEWEST`]
+/// Fills in what the generator predicts of each material, and fits its constants; `None` where fewer than [`FEWEST`]
 /// materials have a counterpart in the reference corpus.
 ///
 /// # Errors
@@ -99,23 +99,19 @@ pub fn calibrate(materials: &mut [Material]) -> Result<Option<Calibration>, Corp
             })
         })
         .collect();
-    if observed.len() < FEWEST {
-        return Ok(None);
-    }
-    let all: Vec<&Observed<'_>> = observed.iter().collect();
-    let fit = fitted(&file, &all, [0.0; COUNT]);
-    let folds: Vec<Constants> = (0..FOLDS)
-        .map(|fold| {
-            let others: Vec<_> = all
-                .iter()
-                .copied()
-                .filter(|o| o.name % FOLDS != fold)
-                .collect();
-            at(&file, &fitted(&file, &others, fit.x).x)
-        })
-        .collect();
-    let calibration = calibration(&file, &fit, &all);
-    let (best, open) = (at(&file, &fit.x), file.values(ConstantSet::Open));
+    let (calibration, folds) = if observed.len() < FEWEST {
+        (None, Vec::new())
+    } else {
+        let all: Vec<&Observed<'_>> = observed.iter().collect();
+        let fit = fitted(&file, &all, [0.0; COUNT]);
+        let folds = (0..FOLDS).map(|fold| {
+            let others = all.iter().copied().filter(|o| o.name % FOLDS != fold);
+            at(&file, &fitted(&file, &others.collect::<Vec<_>>(), fit.x).x)
+        });
+        let folds: Vec<Constants> = folds.collect();
+        (Some(calibration(&file, &fit, &all)), folds)
+    };
+    let [shipped, open] = [ConstantSet::Calibrated, ConstantSet::Open].map(|set| file.values(set));
     materials
         .par_iter_mut()
         .zip(names)
@@ -123,13 +119,13 @@ pub fn calibrate(materials: &mut [Material]) -> Result<Option<Calibration>, Corp
             material.generated = material.physical.map(|physical| {
                 let by = |constants: &Constants| generate(constants, &physical);
                 Generated {
-                    left_out: by(&folds[name % FOLDS]),
-                    fitted: by(&best),
+                    shipped: by(&shipped),
+                    left_out: folds.get(name % FOLDS).map(by),
                     open: by(&open),
                 }
             });
         });
-    Ok(Some(calibration))
+    Ok(calibration)
 }
 
 /// The texture that the generator makes, as the runtime mixes it.
@@ -250,4 +246,49 @@ fn bands_db(constants: &Constants, physical: &Physical, stroke: Bin) -> [f64; BA
     }
     let level_db = level::rms_db(constants, physical, stroke);
     bands.map(|power| level_db + 10.0 * libm::log10(power / total))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_corpus::reference;
+
+    #[test]
+    fn the_constants_that_made_materials_are_found_again() {
+        let file = ConstantsFile::embedded().expect("the committed constants");
+        let truth = Constants {
+            level_db: -9.0,
+            force_exponent: 0.8,
+            resonance_hz: 300.0,
+            friction: 0.5,
+            ..file.values(ConstantSet::Calibrated)
+        };
+        let materials = reference::physical().expect("the committed corpus");
+        let made: Vec<(Physical, Vibration)> = (materials.into_values().step_by(6))
+            .map(|physical| (physical, generate(&truth, &physical)))
+            .collect();
+        let observed: Vec<Observed<'_>> = (made.iter().enumerate())
+            .map(|(name, (physical, measured))| Observed {
+                physical: *physical,
+                measured,
+                name,
+            })
+            .collect();
+        let fit = fitted(&file, &observed.iter().collect::<Vec<_>>(), [0.0; COUNT]);
+        let found = at(&file, &fit.x);
+        // The prior draws, and the instances are AR models: a quarter of the way from it is left at most.
+        let prior = file.values(ConstantSet::Open);
+        for (name, pick) in [
+            (
+                "level",
+                (|c: &Constants| c.level_db) as fn(&Constants) -> f64,
+            ),
+            ("force", |c| c.force_exponent),
+            ("resonance", |c| libm::log(c.resonance_hz)),
+            ("friction", |c| libm::log(c.friction)),
+        ] {
+            let left = (pick(&found) - pick(&truth)) / (pick(&prior) - pick(&truth));
+            assert!(left.abs() < 0.25, "{name}: {left}, {found:?}");
+        }
+    }
 }

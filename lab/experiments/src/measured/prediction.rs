@@ -12,9 +12,9 @@ use asperity::attributes::Attributes;
 pub enum Method {
     /// The texture of its name.
     Prompt,
-    /// The generator of the texture of the material that the name means, its constants fitted on all materials.
+    /// The generator of the texture of the material that the name means, with the constants of the reference corpus.
     Generator,
-    /// The same, fitted on materials of other names.
+    /// The same, its constants fitted on materials of other names.
     GeneratorLeftOut,
     /// The same, from physics and open data alone.
     GeneratorOpen,
@@ -43,7 +43,7 @@ impl Method {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Prompt => "the prompt",
-            Self::Generator => "the generator, fitted on all",
+            Self::Generator => "the generator of the reference corpus",
             Self::GeneratorLeftOut => "the generator, names left out",
             Self::GeneratorOpen => "the generator, from physics and open data alone",
             Self::MeanOfOthers => "the mean of the other materials",
@@ -60,8 +60,10 @@ impl Method {
             let others = || materials.iter().filter(|m| m.prompt != of.prompt);
             match self {
                 Self::Prompt => Some(of.compiled.signature.clone()),
-                Self::Generator => Some(of.generated.as_ref()?.fitted.signature.clone()),
-                Self::GeneratorLeftOut => Some(of.generated.as_ref()?.left_out.signature.clone()),
+                Self::Generator => Some(of.generated.as_ref()?.shipped.signature.clone()),
+                Self::GeneratorLeftOut => {
+                    Some(of.generated.as_ref()?.left_out.as_ref()?.signature.clone())
+                }
                 Self::GeneratorOpen => Some(of.generated.as_ref()?.open.signature.clone()),
                 Self::MeanOfOthers => Signature::mean(others().map(|m| &m.measured.signature)),
                 Self::Attributes => {

@@ -79,7 +79,7 @@ pub fn trends(materials: &[Material]) -> Option<Trends> {
         return None;
     }
     let known: Vec<&Vibration> = (materials.iter())
-        .filter_map(|m| Some(&m.generated.as_ref()?.left_out))
+        .filter_map(|m| m.generated.as_ref()?.left_out.as_ref())
         .collect();
     let beside = Columns {
         measured: materials.iter().map(|m| &m.measured).collect(),
@@ -127,8 +127,8 @@ fn friction(materials: &[Material], beside: &Columns<'_>) -> Friction {
             .collect()
     };
     let prompt = rows(&|m| Some(m.compiled.mu));
-    let generated =
-        (beside.generated.as_ref()).map(|_| rows(&|m| Some(m.generated.as_ref()?.left_out.mu)));
+    let generated = (beside.generated.as_ref())
+        .map(|_| rows(&|m| Some(m.generated.as_ref()?.left_out.as_ref()?.mu)));
     Friction {
         mu: beside.each(|all| median(each(all, |v| v.mu))),
         error: Errors {
