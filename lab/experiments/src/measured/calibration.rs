@@ -19,7 +19,6 @@ use asperity_corpus::{
     },
 };
 use rayon::prelude::*;
-use serde::Serialize;
 use std::array;
 
 /// Parts that the names are left out in.
@@ -27,6 +26,8 @@ const FOLDS: usize = 5;
 /// Deviation of a level from what the best constants say, dB, and the independent ones among the 108 of a material.
 const LEVEL_DEVIATION_DB: f64 = 6.0;
 const INDEPENDENT_LEVELS: f64 = 12.0;
+/// Half of a 95 % interval of a normal distribution, standard deviations.
+const INTERVAL: f64 = 1.959_964;
 /// Deviation of ln μ.
 const FRICTION_DEVIATION: f64 = 0.5;
 /// Residuals of a material: levels and ln μ.
@@ -49,32 +50,6 @@ pub struct Generated {
     pub open: Vibration,
 }
 
-/// A constant as fitted on all materials.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct FittedConstant {
-    /// Its name.
-    pub name: String,
-    /// Its unit.
-    pub unit: String,
-    /// By physics and open data alone.
-    pub open: Estimate,
-    /// Fitted, with its 95 % interval.
-    pub calibrated: Estimate,
-    /// The farthest that leaving out one material moves it, as a share of the distance to the end of that interval.
-    pub moved: f64,
-}
-
-/// A calibration.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Calibration {
-    /// The file with its new constants.
-    pub file: ConstantsFile,
-    /// Each constant.
-    pub constants: Vec<FittedConstant>,
-    /// Materials that it was fitted on.
-    pub materials: usize,
-}
-
 /// A measured material and its physical parameters.
 struct Observed<'a> {
     physical: Physical,
@@ -82,12 +57,12 @@ struct Observed<'a> {
     name: usize,
 }
 
-/// Fills in what the generator predicts of each material, and fits its constants; `None` where fewer than [`FEWEST`]
-/// materials have a counterpart in the reference corpus.
+/// Fills in what the generator predicts of each material, and fits its constants: the file with the calibrated values anew,
+/// `None` where fewer than [`FEWEST`] materials have a counterpart in the reference corpus.
 ///
 /// # Errors
 /// [`CorpusError`] of the committed constants.
-pub fn calibrate(materials: &mut [Material]) -> Result<Option<Calibration>, CorpusError> {
+pub fn calibrate(materials: &mut [Material]) -> Result<Option<ConstantsFile>, CorpusError> {
     let file = ConstantsFile::embedded()?;
     let names = names(materials);
     let observed: Vec<Observed<'_>> = (materials.iter().zip(&names))
@@ -109,7 +84,7 @@ pub fn calibrate(materials: &mut [Material]) -> Result<Option<Calibration>, Corp
             at(&file, &fitted(&file, &others.collect::<Vec<_>>(), fit.x).x)
         });
         let folds: Vec<Constants> = folds.collect();
-        (Some(calibration(&file, &fit, &all)), folds)
+        (Some(calibrated(&file, &fit, &all)), folds)
     };
     let [shipped, open] = [ConstantSet::Calibrated, ConstantSet::Open].map(|set| file.values(set));
     materials
@@ -155,41 +130,28 @@ fn at(file: &ConstantsFile, x: &[f64; COUNT]) -> Constants {
     }))
 }
 
-fn calibration(file: &ConstantsFile, fit: &Fit<COUNT>, observed: &[&Observed<'_>]) -> Calibration {
+/// The file with the fitted values, their intervals, and how far one material moves each.
+fn calibrated(file: &ConstantsFile, fit: &Fit<COUNT>, observed: &[&Observed<'_>]) -> ConstantsFile {
     let group: Vec<usize> = observed.iter().flat_map(|o| [o.name; ROWS]).collect();
-    let errors = fit.standard_errors(&group);
+    let half = fit.standard_errors(&group).map(|error| INTERVAL * error);
     let mut moved = [0.0_f64; COUNT];
     for material in 0..observed.len() {
         let without = fit.moved_without(material * ROWS..(material + 1) * ROWS);
         (0..COUNT).for_each(|i| moved[i] = moved[i].max(without[i]));
     }
-    let half = errors.map(|error| 1.959_964 * error);
     let end = |sign: f64| at(file, &array::from_fn(|i| fit.x[i] + sign * half[i])).to_array();
     let (value, low, high) = (at(file, &fit.x).to_array(), end(-1.0), end(1.0));
     let mut file = file.clone();
-    let constants = (file.constant.iter_mut().enumerate())
-        .map(|(i, constant)| {
-            constant.moved = (100.0 * moved[i] / half[i]).round() / 100.0;
-            constant.calibrated = Estimate {
-                value: value[i],
-                low: low[i],
-                high: high[i],
-            }
-            .rounded();
-            FittedConstant {
-                name: constant.name.clone(),
-                unit: constant.unit.clone(),
-                open: constant.open,
-                calibrated: constant.calibrated,
-                moved: constant.moved,
-            }
-        })
-        .collect();
-    Calibration {
-        file,
-        constants,
-        materials: observed.len(),
+    for (i, constant) in file.constant.iter_mut().enumerate() {
+        constant.moved = (100.0 * moved[i] / half[i]).round() / 100.0;
+        constant.calibrated = Estimate {
+            value: value[i],
+            low: low[i],
+            high: high[i],
+        }
+        .rounded();
     }
+    file
 }
 
 /// What is left of a material, in deviations.

@@ -2,11 +2,11 @@
 
 use super::{
     Comparison,
-    calibration::FittedConstant,
     score::Figure,
     signature::BANDS,
     trend::{Beside, Spread, Trends},
 };
+use asperity_corpus::generator::constants::Constant;
 use std::fmt::Write as _;
 
 /// All tables, each under a heading.
@@ -49,7 +49,7 @@ fn scores(text: &mut String, comparison: &Comparison) {
     text.push('\n');
 }
 
-fn constants(text: &mut String, fitted: &[FittedConstant]) {
+fn constants(text: &mut String, fitted: &[Constant]) {
     text.push_str("## Constants\n\n| constant | unit | physics, open data | calibrated (95 %) | moved by one material |\n|---|---|---:|---:|---:|\n");
     for constant in fitted {
         let of = constant.calibrated;

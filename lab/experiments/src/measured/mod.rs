@@ -28,6 +28,7 @@ pub mod signature;
 mod tests;
 pub mod trend;
 
+use asperity_corpus::generator::constants::{Constant, ConstantsFile};
 use material::{Material, Materials};
 use prediction::Method;
 use serde::Serialize;
@@ -42,7 +43,7 @@ pub struct Comparison {
     /// Every method that predicts a material.
     pub scores: Vec<score::Score>,
     /// The constants of the generator; `None` of fewer than [`trend::FEWEST`].
-    pub constants: Option<Vec<calibration::FittedConstant>>,
+    pub constants: Option<Vec<Constant>>,
     /// Over all materials; `None` of fewer than [`trend::FEWEST`].
     pub trends: Option<trend::Trends>,
     /// Every material by its prompt.
@@ -54,7 +55,7 @@ pub struct Comparison {
 impl Comparison {
     /// Judges every method.
     #[must_use]
-    pub fn of(materials: &Materials, calibration: Option<&calibration::Calibration>) -> Self {
+    pub fn of(materials: &Materials, calibrated: Option<&ConstantsFile>) -> Self {
         let compared: &[Material] = &materials.compared;
         Self {
             materials: compared.len(),
@@ -66,7 +67,7 @@ impl Comparison {
                 .iter()
                 .filter_map(|method| score::score(*method, compared))
                 .collect(),
-            constants: calibration.map(|fitted| fitted.constants.clone()),
+            constants: calibrated.map(|file| file.constant.clone()),
             trends: trend::trends(compared),
             own: score::own(compared),
             left_out: materials.left_out.clone(),

@@ -71,9 +71,9 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
             unknown.name
         ));
     }
-    let calibration = calibration::calibrate(&mut materials.compared)
+    let calibrated = calibration::calibrate(&mut materials.compared)
         .map_err(|error| Plain::failure(error, BUG))?;
-    let comparison = Comparison::of(&materials, calibration.as_ref());
+    let comparison = Comparison::of(&materials, calibrated.as_ref());
     for (name, reason) in &comparison.left_out {
         console.warn(&format!("{name} is not compared: {reason}"));
     }
@@ -96,8 +96,8 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
                 chart::spectra(trends).map_err(|error| Plain::failure(error, BUG))?,
             ));
         }
-        if let Some(calibration) = &calibration {
-            let text = calibration.file.text();
+        if let Some(constants) = &calibrated {
+            let text = constants.text();
             let text = text.map_err(|error| Plain::failure(error, BUG))?;
             files.push(("generator.toml".to_owned(), text.into_bytes()));
         }
