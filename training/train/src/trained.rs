@@ -122,7 +122,13 @@ impl Trained {
         for chunk in latents.chunks(CHUNK) {
             let z = matrix(chunk.concat(), LATENT, &device);
             let (network, normaliser) = (&self.network, &self.normaliser);
-            let decoded = decode(network, &bound, normaliser, z, &mut Mode::Evaluate);
+            let decoded = decode(
+                network,
+                &bound,
+                normaliser,
+                [z.clone(), z],
+                &mut Mode::Evaluate,
+            );
             let (lsf_rad, excitation, taps) = (
                 numbers(decoded.lsf_rad),
                 numbers(decoded.excitation),

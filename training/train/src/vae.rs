@@ -114,13 +114,8 @@ impl State {
             None => x,
         };
         let ar = mixed(ar);
-        let (lsf_rad, excitation) =
-            (network.ar_decoder).forward(&bound, run.normaliser, mixed(z.clone()), &mut mode);
-        let decoded = Decoded {
-            lsf_rad,
-            excitation,
-            taps_m_s2: (network.tap_decoder).forward(&bound, run.normaliser, z.clone(), &mut mode),
-        };
+        let latents = [mixed(z.clone()), z.clone()];
+        let decoded = decode(network, &bound, run.normaliser, latents, &mut mode);
         let said = normalised(run.normaliser, decoded);
         let lsf = smooth_l1(said.lsf_rad, ar.clone().narrow(1, 0, LSFS));
         let excitation = smooth_l1(said.excitation, ar.narrow(1, LSFS, BINS));
@@ -168,21 +163,19 @@ impl State {
     }
 }
 
-/// Both decoders.
+/// Both decoders, each of its own latents.
 pub(crate) fn decode(
     network: &Network,
     bound: &Bound,
     normaliser: &Normaliser,
-    z: Tensor<2>,
+    [ar, taps]: [Tensor<2>; 2],
     mode: &mut Mode<'_>,
 ) -> Decoded {
-    let (lsf_rad, excitation) = network
-        .ar_decoder
-        .forward(bound, normaliser, z.clone(), mode);
+    let (lsf_rad, excitation) = network.ar_decoder.forward(bound, normaliser, ar, mode);
     Decoded {
         lsf_rad,
         excitation,
-        taps_m_s2: network.tap_decoder.forward(bound, normaliser, z, mode),
+        taps_m_s2: network.tap_decoder.forward(bound, normaliser, taps, mode),
     }
 }
 

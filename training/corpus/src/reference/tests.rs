@@ -58,19 +58,15 @@ fn assert_in_order(corpus: &Corpus) {
         ("slipperiness", column(|r| r.slippery), slip, 0.85),
     ] {
         let correlation = rank_correlation(&rated, &found).unwrap();
-        let mut clear = rated.iter().zip(&found).flat_map(|(x, a)| {
-            let below = rated
-                .iter()
-                .zip(&found)
-                .filter(move |(y, _)| x - **y > CLEAR);
-            below.map(move |(_, b)| a > b)
-        });
-        let (mut right, mut all) = (0, 0);
-        clear.by_ref().for_each(|in_order| {
-            right += usize::from(in_order);
-            all += 1;
-        });
-        let share = f64::from(right as u32) / f64::from(all);
+        let both = || rated.iter().zip(&found);
+        let in_order: Vec<bool> = both()
+            .flat_map(|(x, a)| {
+                let below = both().filter(move |(y, _)| x - **y > CLEAR);
+                below.map(move |(_, b)| a > b)
+            })
+            .collect();
+        let right = in_order.iter().filter(|right| **right).count();
+        let share = right as f64 / in_order.len() as f64;
         println!("{what}: {correlation:.3}, {share:.4} of the clear pairs");
         assert!(
             correlation > least && share > 0.98,
