@@ -63,7 +63,11 @@ impl Layout {
             let what = "is no text: it holds bytes of 0";
             return Err(TableError::damaged(None, what, "save it as CSV in UTF-8"));
         }
-        let lines = lines(head);
+        let mut lines = lines(head);
+        if head.len() == HEAD && !head.ends_with(b"\n") {
+            // The last line may be cut.
+            lines.pop();
+        }
         let stated = lines.iter().take(3).find_map(|line| {
             match line.text.strip_prefix("sep=")?.as_bytes() {
                 &[byte] => Some(Separator::Byte(byte)),
@@ -79,7 +83,7 @@ impl Layout {
             .copied()
             .filter(|line| !is_comment(line))
             .collect();
-        let rows = Rows::of(&plain, stated, head.len() == HEAD);
+        let rows = Rows::of(&plain, stated);
         if rows.labelled {
             return Ok(Self::labelled(&rows, &plain));
         }

@@ -1,8 +1,8 @@
 //! Tables of numbers in text, in whatever dialect a logger or a spreadsheet writes them.
 //!
-//! Commas, semicolons, tabs or blanks separate the columns; a decimal comma is told from a separator; lines may stand
-//! before the header, and a row of units behind it; `name:value` pairs name their columns themselves. What cannot be
-//! told is refused with its line, never guessed.
+//! Columns are separated by commas, semicolons, tabs or blanks, and numbers may have a decimal comma. Lines may precede
+//! the header, and a row of units may follow it; `name:value` pairs name their own columns. Whatever is ambiguous is
+//! refused with its line, never guessed.
 
 mod blanks;
 mod cell;
@@ -16,11 +16,13 @@ pub use layout::Layout;
 use blanks::Blanks;
 use csv::{ByteRecord, ReaderBuilder, Trim};
 use layout::HEAD;
-use lines::Lines;
+use lines::{BUFFER, Lines, MAX_ROW, TooLong};
 use rows::Separator;
 use std::{
     borrow::Cow,
+    cell::Cell,
     io::{self, Chain, Cursor, Read},
+    rc::Rc,
 };
 use thiserror::Error;
 
@@ -75,6 +77,8 @@ pub struct Table<R> {
     layout: Layout,
     reader: csv::Reader<Blanks<Input<R>>>,
     record: ByteRecord,
+    /// Bytes of the row that is read.
+    row_bytes: Rc<Cell<usize>>,
     /// The last row and its number of values, where it has not as many as the others.
     odd: Option<(u64, usize)>,
 }
@@ -102,7 +106,8 @@ impl<R: Read> Table<R> {
         let layout = Layout::of(&head, is_unit)?;
         let mut head = Cursor::new(head);
         head.set_position(layout.start);
-        let input: Input<R> = Box::new(Lines::new(head.chain(input)));
+        let row_bytes = Rc::new(Cell::new(0));
+        let input: Input<R> = Box::new(Lines::new(head.chain(input), Rc::clone(&row_bytes)));
         let input = Blanks::new(input, layout.separator == Separator::Blanks);
         let reader = ReaderBuilder::new()
             .delimiter(layout.separator.byte())
@@ -110,11 +115,13 @@ impl<R: Read> Table<R> {
             .has_headers(false)
             .flexible(true)
             .trim(Trim::All)
+            .buffer_capacity(BUFFER)
             .from_reader(input);
         Ok(Self {
             layout,
             reader,
             record: ByteRecord::new(),
+            row_bytes,
             odd: None,
         })
     }
@@ -130,8 +137,10 @@ impl<R: Read> Table<R> {
     /// [`TableError`] for a row whose number of values is wrong, or names in place of numbers.
     pub fn next_row(&mut self) -> Result<Option<Row<'_>>, TableError> {
         loop {
+            self.row_bytes.set(0);
+            let line = self.reader.position().line();
             let more = self.reader.read_byte_record(&mut self.record);
-            if !more.map_err(|error| self.failed(error))? {
+            if !more.map_err(|error| self.failed(line, error))? {
                 return Ok(None);
             }
             if let Some((line, values)) = self.odd.take() {
@@ -199,14 +208,18 @@ impl<R: Read> Table<R> {
             && told.all(|(_, field)| is_word(field))
     }
 
-    fn failed(&self, error: csv::Error) -> TableError {
+    fn failed(&self, line: u64, error: csv::Error) -> TableError {
+        let line = Some(self.layout.lines + line);
         match error.into_kind() {
+            csv::ErrorKind::Io(error) if error.get_ref().is_some_and(|e| e.is::<TooLong>()) => {
+                let what = format!("takes more than {MAX_ROW} bytes");
+                TableError::damaged(line, what, "close its quotation mark, or break the line")
+            }
             csv::ErrorKind::Io(error) => TableError::unreadable(error),
-            other => TableError::damaged(
-                Some(self.layout.lines + self.reader.position().line()),
-                format!("is no row of a table ({other:?})"),
-                "save it as CSV in UTF-8",
-            ),
+            other => {
+                let what = format!("is no row of a table ({other:?})");
+                TableError::damaged(line, what, "save it as CSV in UTF-8")
+            }
         }
     }
 }

@@ -76,10 +76,8 @@ pub(super) struct Rows {
 }
 
 impl Rows {
-    pub(super) fn of(plain: &[&Line], stated: Option<Separator>, is_part: bool) -> Self {
-        // The last line of a part may be cut.
-        let whole = plain.len() - usize::from(is_part && plain.len() > 1);
-        let sample = &plain[whole.saturating_sub(SAMPLE)..whole];
+    pub(super) fn of(plain: &[&Line], stated: Option<Separator>) -> Self {
+        let sample = &plain[plain.len().saturating_sub(SAMPLE)..];
         let all = stated.map_or(Separator::ALL.to_vec(), |separator| vec![separator]);
         let parted = all
             .into_iter()

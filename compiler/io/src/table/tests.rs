@@ -161,3 +161,30 @@ fn the_last_row_alone_may_be_cut() {
     }
     assert_eq!((count, table.cut()), (2, Some((5, 1))));
 }
+
+#[test]
+fn rows_end_and_may_be_many() {
+    let row = 64 * 1024;
+    let longest = "1".repeat(4 * row);
+    let many = "1,".repeat(4 * row);
+    let quoted = format!("\"{}", "0,0\n".repeat(4 * row));
+    let blank = "\n".repeat(4 * row);
+    for text in [longest, many, quoted, blank] {
+        let error = read(&format!("t,x\n0,0\n{text}")).expect_err("without an end");
+        assert!(
+            error
+                .to_string()
+                .starts_with("line 3 takes more than 65536 bytes"),
+            "{error}"
+        );
+    }
+    let error = read(&"t,".repeat(row)).expect_err("a header without an end");
+    assert!(error.to_string().contains("first 64 KiB"), "{error}");
+    assert_eq!(
+        read(&format!("t,x\n{}", "0,1\n".repeat(100_000)))
+            .expect("short rows")
+            .2
+            .len(),
+        100_000
+    );
+}

@@ -1,10 +1,11 @@
 //! Why a trajectory could not be rendered, and what to do about it.
 
-use super::{
-    columns::INPUT_COLUMNS,
-    limits::{MAX_ROW_BYTES, MAX_SCENE_TEXTURES},
+use super::{columns::INPUT_COLUMNS, limits::MAX_SCENE_TEXTURES};
+use asperity_io::{
+    diagnostic::Diagnostic,
+    input::InputError,
+    table::{TableError, TableProblem},
 };
-use asperity_io::{diagnostic::Diagnostic, input::InputError};
 use asperity_runtime::{ConfigError, LoadError, SceneError};
 use std::{io, path::PathBuf};
 use thiserror::Error;
@@ -16,27 +17,19 @@ pub enum RenderError {
     /// The trajectory cannot be opened or read, or is too large.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// A row is longer than any row of numbers.
-    #[error("{file}:{line}: the row takes more than {MAX_ROW_BYTES} bytes", file = file.display())]
-    RowTooLong {
-        /// The file.
-        file: PathBuf,
-        /// Line where it begins, 1-based.
-        line: u64,
-    },
     /// A scene with more textures than are rendered at once.
     #[error("the scene has {found} textures, {MAX_SCENE_TEXTURES} are rendered at most")]
     Textures {
         /// Textures of the library.
         found: usize,
     },
-    /// It is not CSV in UTF-8.
-    #[error("{file}: not a CSV table: {cause}", file = file.display())]
-    NotCsv {
+    /// It is no table, or a damaged one.
+    #[error("{file}: {error}", file = file.display())]
+    Table {
         /// The file.
         file: PathBuf,
-        /// Why, with the line.
-        cause: String,
+        /// What is wrong, with the line.
+        error: TableError,
     },
     /// A column is missing.
     #[error("{file}:1: column {column} is missing", file = file.display())]
@@ -123,7 +116,15 @@ impl Diagnostic for RenderError {
                 "build the scene again with `asperity build`, which packs only textures in use"
                     .into()
             }
-            Self::NotCsv { .. } | Self::Empty { .. } | Self::RowTooLong { .. } => format!(
+            Self::Table {
+                error:
+                    TableError {
+                        problem: TableProblem::Damaged { remedy, .. },
+                        ..
+                    },
+                ..
+            } => (*remedy).into(),
+            Self::Table { .. } | Self::Empty { .. } => format!(
                 "give UTF-8 text with the header {} and one row per tick",
                 INPUT_COLUMNS.join(",")
             ),

@@ -1,12 +1,13 @@
 //! The table of a trajectory: columns, numbers and times, checked row by row.
 
-use super::{columns::INPUT_COLUMNS, error::RenderError, limits::MAX_ROW_BYTES};
-use asperity_io::input::{InputError, InputProblem, Kind};
+use super::{columns::INPUT_COLUMNS, error::RenderError};
+use asperity_io::{
+    input::{InputError, InputProblem, Kind},
+    table::{Table, TableError, TableProblem, number},
+};
 use std::{
-    cell::Cell,
     io::{self, Read},
     path::Path,
-    rc::Rc,
 };
 
 /// A row's time may differ from its place by this share of a period: enough for times
@@ -22,10 +23,8 @@ pub(super) struct Row {
 /// Checked rows of a trajectory.
 pub(super) struct Rows<'a, R> {
     pub(super) file: &'a Path,
-    reader: csv::Reader<Bounded<R>>,
-    row_bytes: Rc<Cell<usize>>,
+    table: Table<Bounded<R>>,
     columns: [usize; 4],
-    record: csv::StringRecord,
     rate_hz: f32,
     first_t_s: f64,
     row: u64,
@@ -34,21 +33,13 @@ pub(super) struct Rows<'a, R> {
 impl<'a, R: Read> Rows<'a, R> {
     /// Reads the header.
     pub(super) fn new(file: &'a Path, input: R, rate_hz: f32) -> Result<Self, RenderError> {
-        let row_bytes = Rc::new(Cell::new(0));
-        let input = Bounded {
-            input,
-            row_bytes: Rc::clone(&row_bytes),
-            left: Kind::Trajectory.max_bytes(),
-        };
-        let mut reader = csv::ReaderBuilder::new()
-            .trim(csv::Trim::All)
-            .buffer_capacity(BUFFER_BYTES)
-            .from_reader(input);
-        let headers = reader.headers().map_err(|e| csv_error(file, 1, e))?;
+        let left = Kind::Trajectory.max_bytes();
+        let table = Table::open(Bounded { input, left }, &|_| false);
+        let table = table.map_err(|error| fault(file, error))?;
         let mut columns = [0; 4];
         for (place, column) in columns.iter_mut().zip(INPUT_COLUMNS) {
-            let is_it = |name: &str| name.trim_start_matches('\u{feff}') == column;
-            let mut found = headers.iter().enumerate().filter(|(_, name)| is_it(name));
+            let names = table.layout().columns.iter().enumerate();
+            let mut found = names.filter(|(_, name)| *name == column);
             *place = found
                 .next()
                 .ok_or_else(|| RenderError::MissingColumn {
@@ -65,10 +56,8 @@ impl<'a, R: Read> Rows<'a, R> {
         }
         Ok(Self {
             file,
-            reader,
-            row_bytes,
+            table,
             columns,
-            record: csv::StringRecord::new(),
             rate_hz,
             first_t_s: 0.0,
             row: 0,
@@ -77,23 +66,24 @@ impl<'a, R: Read> Rows<'a, R> {
 
     /// The next row, if there is one.
     pub(super) fn next(&mut self) -> Result<Option<Row>, RenderError> {
-        self.row_bytes.set(0);
-        let line = self.reader.position().line();
-        let more = self
-            .reader
-            .read_record(&mut self.record)
-            .map_err(|e| csv_error(self.file, line, e))?;
-        if !more {
-            return Ok(None);
-        }
-        let line = self.record.position().map_or(0, csv::Position::line);
+        let decimal_comma = self.table.layout().decimal_comma;
+        let next = self.table.next_row();
+        let Some(row) = next.map_err(|error| fault(self.file, error))? else {
+            let Some((line, values)) = self.table.cut() else {
+                return Ok(None);
+            };
+            let what = format!("is cut: it has {values} values");
+            let remedy = "write the whole trajectory, or remove this row";
+            let problem = TableProblem::Damaged { what, remedy };
+            let line = Some(line);
+            return Err(fault(self.file, TableError { line, problem }));
+        };
+        let line = row.line;
         let mut values = [0.0; 4];
         for (k, value) in values.iter_mut().enumerate() {
-            let text = self.record.get(self.columns[k]).unwrap_or_default();
-            *value = text
-                .parse()
-                .ok()
-                .filter(|value: &f64| value.is_finite())
+            let text = row.text(self.columns[k]);
+            *value = number(&text, decimal_comma)
+                .filter(|value| value.is_finite())
                 .ok_or_else(|| RenderError::NotANumber {
                     file: self.file.to_owned(),
                     line,
@@ -125,30 +115,15 @@ impl<'a, R: Read> Rows<'a, R> {
     }
 }
 
-/// Bytes that the parser reads at once.
-const BUFFER_BYTES: usize = 8 * 1024;
-
-/// A reader that fails where one row, or the file, gives too many bytes. The parser keeps a row in
-/// memory, however long it is, and an unclosed quotation mark turns the rest into one row.
+/// A reader that fails where the file gives too many bytes.
 struct Bounded<R> {
     input: R,
-    /// Bytes read since the row before was complete: the row's, and what the parser reads ahead.
-    row_bytes: Rc<Cell<usize>>,
     left: u64,
 }
 
-/// What [`Bounded`] tells [`csv_error`].
-#[derive(Debug, thiserror::Error)]
-#[error("the row is too long")]
-struct RowTooLong;
-
 impl<R: Read> Read for Bounded<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        if self.row_bytes.get() > MAX_ROW_BYTES + BUFFER_BYTES {
-            return Err(io::Error::other(RowTooLong));
-        }
         let len = self.input.read(buffer)?;
-        self.row_bytes.set(self.row_bytes.get() + len);
         let kind = Kind::Trajectory;
         self.left = self
             .left
@@ -158,17 +133,13 @@ impl<R: Read> Read for Bounded<R> {
     }
 }
 
-fn csv_error(file: &Path, line: u64, error: csv::Error) -> RenderError {
+fn fault(file: &Path, error: TableError) -> RenderError {
     let file = file.to_owned();
-    let text = error.to_string();
-    match error.into_kind() {
-        csv::ErrorKind::Io(cause) if cause.get_ref().is_some_and(|e| e.is::<RowTooLong>()) => {
-            RenderError::RowTooLong { file, line }
-        }
-        csv::ErrorKind::Io(cause) => {
+    match error.problem {
+        TableProblem::Unreadable(cause) => {
             let problem = cause.into();
             RenderError::Input(InputError { file, problem })
         }
-        _ => RenderError::NotCsv { file, cause: text },
+        _ => RenderError::Table { file, error },
     }
 }
