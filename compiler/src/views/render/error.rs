@@ -1,11 +1,7 @@
 //! Why a trajectory could not be rendered, and what to do about it.
 
 use super::{columns::INPUT_COLUMNS, limits::MAX_SCENE_TEXTURES};
-use asperity_io::{
-    diagnostic::Diagnostic,
-    input::InputError,
-    table::{TableError, TableProblem},
-};
+use asperity_io::{diagnostic::Diagnostic, input::InputError, table::TableError};
 use asperity_runtime::{ConfigError, LoadError, SceneError};
 use std::{io, path::PathBuf};
 use thiserror::Error;
@@ -116,14 +112,6 @@ impl Diagnostic for RenderError {
                 "build the scene again with `asperity build`, which packs only textures in use"
                     .into()
             }
-            Self::Table {
-                error:
-                    TableError {
-                        problem: TableProblem::Damaged { remedy, .. },
-                        ..
-                    },
-                ..
-            } => (*remedy).into(),
             Self::Table { .. } | Self::Empty { .. } => format!(
                 "give UTF-8 text with the header {} and one row per tick",
                 INPUT_COLUMNS.join(",")
