@@ -136,10 +136,11 @@ impl Rows {
         }
     }
 
-    /// The fields of a header, which may have another separator than the rows.
+    /// The fields of a header, which may have a separator of its own over columns that blanks separate. Anywhere
+    /// else, two separators mean that the one of the rows is wrong.
     pub(super) fn names(&self, text: &str) -> Vec<String> {
         let own = self.separator.fields(text);
-        if self.fits(&own) {
+        if self.separator != Separator::Blanks || self.fits(&own) {
             return own;
         }
         let parted = text

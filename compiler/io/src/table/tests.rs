@@ -120,6 +120,11 @@ fn what_cannot_be_told_is_refused_by_its_line() {
             "line 5 holds names in place of numbers",
         ),
         ("t\0x\n", "bytes of 0"),
+        // Grouped thousands in a single row: the separator of the header is another one.
+        (
+            "t;x\n1.234,5;1\n",
+            "begins with numbers that commas separate",
+        ),
         ("\u{feff}", "has no header"),
     ] {
         let error = read(text).expect_err(text).to_string();
