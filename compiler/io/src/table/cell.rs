@@ -32,7 +32,7 @@ pub(super) fn has_decimal_comma(text: &str, surely: bool) -> bool {
 pub fn seconds(text: &str) -> Option<f64> {
     let text = text.trim().trim_matches('"');
     if let Some((value, unit)) = text.split_once(' ')
-        && let Some((_, factor)) = UNITS.iter().find(|(names, _)| names.contains(&unit))
+        && let Some((_, factor)) = time_unit(unit)
     {
         return Some(number(value, false)? * factor);
     }
@@ -46,13 +46,21 @@ pub fn seconds(text: &str) -> Option<f64> {
     Some(86_400.0 * days as f64 + of_day)
 }
 
-/// Units of time behind a number, and the seconds in one.
-const UNITS: [(&[&str], f64); 4] = [
-    (&["s", "sec", "secs", "second", "seconds"], 1.0),
-    (&["ms", "msec", "milliseconds"], 1e-3),
-    (&["us", "µs", "μs", "usec", "microseconds"], 1e-6),
-    (&["ns", "nsec", "nanoseconds"], 1e-9),
-];
+/// A unit of time: its symbol, and the seconds in one.
+#[must_use]
+pub fn time_unit(text: &str) -> Option<(&'static str, f64)> {
+    Some(match text {
+        "s" | "sec" | "secs" | "second" | "seconds" => ("s", 1.0),
+        "ms" | "msec" | "msecs" | "milli" | "millis" | "millisecond" | "milliseconds" => {
+            ("ms", 1e-3)
+        }
+        "us" | "µs" | "μs" | "usec" | "micro" | "micros" | "microsecond" | "microseconds" => {
+            ("us", 1e-6)
+        }
+        "ns" | "nsec" | "nanos" | "nanosecond" | "nanoseconds" => ("ns", 1e-9),
+        _ => return None,
+    })
+}
 
 /// A time of day without its zone, and the zone's offset, s.
 fn zone(clock: &str) -> Option<(&str, f64)> {

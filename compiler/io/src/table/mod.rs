@@ -10,7 +10,7 @@ mod layout;
 mod lines;
 mod rows;
 
-pub use cell::{number, seconds};
+pub use cell::{number, seconds, time_unit};
 pub use layout::Layout;
 
 use blanks::Blanks;
@@ -69,13 +69,11 @@ impl TableError {
     }
 }
 
-type Input<R> = Box<Lines<Chain<Cursor<Vec<u8>>, R>>>;
-
 /// The rows of a table, one at a time: a table is never held in memory as a whole.
 #[derive(Debug)]
 pub struct Table<R> {
     layout: Layout,
-    reader: csv::Reader<Blanks<Input<R>>>,
+    reader: csv::Reader<Blanks<Lines<Chain<Cursor<Vec<u8>>, R>>>>,
     record: ByteRecord,
     /// Bytes of the row that is read.
     row_bytes: Rc<Cell<usize>>,
@@ -107,7 +105,7 @@ impl<R: Read> Table<R> {
         let mut head = Cursor::new(head);
         head.set_position(layout.start);
         let row_bytes = Rc::new(Cell::new(0));
-        let input: Input<R> = Box::new(Lines::new(head.chain(input), Rc::clone(&row_bytes)));
+        let input = Lines::new(head.chain(input), Rc::clone(&row_bytes));
         let input = Blanks::new(input, layout.separator == Separator::Blanks);
         let reader = ReaderBuilder::new()
             .delimiter(layout.separator.byte())

@@ -7,37 +7,7 @@ use super::{
     quantity::{Quantity, Unit},
     schema::Axis,
 };
-
-/// Units of time: as a description writes them, and how headers do.
-const TIMES: [(&str, &[&str]); 4] = [
-    ("s", &["s", "sec", "secs", "second", "seconds"]),
-    (
-        "ms",
-        &[
-            "ms",
-            "msec",
-            "msecs",
-            "milli",
-            "millis",
-            "millisecond",
-            "milliseconds",
-        ],
-    ),
-    (
-        "us",
-        &[
-            "us",
-            "µs",
-            "μs",
-            "usec",
-            "micro",
-            "micros",
-            "microsecond",
-            "microseconds",
-        ],
-    ),
-    ("ns", &["ns", "nsec", "nanos", "nanosecond", "nanoseconds"]),
-];
+use asperity_io::table::time_unit;
 
 /// Spellings of units that a description writes in one way. Their case counts: mN is no MN.
 const SPELLINGS: [(&str, &[&str]); 18] = [
@@ -245,11 +215,9 @@ fn is_time(word: &str) -> bool {
     )
 }
 
+/// The unit of time that a word names, as a description writes it.
 fn time(word: &str) -> Option<&'static str> {
-    TIMES
-        .iter()
-        .find(|(_, spellings)| spellings.contains(&word))
-        .map(|(unit, _)| *unit)
+    time_unit(word).map(|(unit, _)| unit)
 }
 
 fn quantity_of(word: &str) -> Option<Quantity> {

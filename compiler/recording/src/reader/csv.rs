@@ -38,6 +38,7 @@ pub(super) fn header(path: &Path) -> Result<Header, RecordingError> {
     Ok(Header {
         texts: texts.collect(),
         columns: layout.columns,
+        line: layout.header,
         units: layout.units,
         groups: layout.groups,
         named: true,

@@ -130,7 +130,7 @@ fn columns(path: &Path, file: &SensorFile, header: &Header) -> Result<Columns, R
             column: column.to_string(),
             found: header.columns.join(", "),
         });
-        Err(RecordingError::at(path, 1, problem))
+        Err(RecordingError::at(path, header.line.max(1), problem))
     };
     Ok(Columns {
         clock: file.clock.as_ref().map(find).transpose()?,

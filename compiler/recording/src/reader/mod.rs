@@ -23,6 +23,8 @@ use std::path::Path;
 pub struct Header {
     /// Names of the columns; numbers from 0 where the file has no names.
     pub columns: Vec<String>,
+    /// Line of the header, from 1; 0 where the file has none.
+    pub line: u64,
     /// What a row of units says of each column; none where there is no such row.
     pub units: Vec<String>,
     /// What rows above the header say of each column; none where there are none.

@@ -1,6 +1,6 @@
 //! Why a trajectory could not be rendered, and what to do about it.
 
-use super::{columns::INPUT_COLUMNS, limits::MAX_SCENE_TEXTURES};
+use super::{MAX_SCENE_TEXTURES, columns::INPUT_COLUMNS};
 use asperity_io::{diagnostic::Diagnostic, input::InputError, table::TableError};
 use asperity_runtime::{ConfigError, LoadError, SceneError};
 use std::{io, path::PathBuf};
@@ -28,18 +28,22 @@ pub enum RenderError {
         error: TableError,
     },
     /// A column is missing.
-    #[error("{file}:1: column {column} is missing", file = file.display())]
+    #[error("{file}:{line}: column {column} is missing", file = file.display())]
     MissingColumn {
         /// The file.
         file: PathBuf,
+        /// Line of the header, 1-based.
+        line: u64,
         /// The column.
         column: &'static str,
     },
     /// A column is there twice.
-    #[error("{file}:1: column {column} appears twice", file = file.display())]
+    #[error("{file}:{line}: column {column} appears twice", file = file.display())]
     RepeatedColumn {
         /// The file.
         file: PathBuf,
+        /// Line of the header, 1-based.
+        line: u64,
         /// The column.
         column: &'static str,
     },

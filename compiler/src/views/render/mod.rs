@@ -18,12 +18,10 @@
 
 mod columns;
 mod error;
-mod limits;
 mod trajectory;
 
 pub use columns::{INPUT_COLUMNS, OUTPUT_COLUMNS, SURFACE_COLUMN};
 pub use error::RenderError;
-pub use limits::MAX_SCENE_TEXTURES;
 
 use super::offline_config;
 use asperity_formats::{Asset, Library};
@@ -35,6 +33,9 @@ use std::{
     path::Path,
 };
 use trajectory::Rows;
+
+/// Most textures of a scene that is rendered, each of which takes a slot; `asperity build` packs 64 at most.
+pub const MAX_SCENE_TEXTURES: usize = 1024;
 
 /// What a run did.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -36,6 +36,7 @@ impl<'a, R: Read> Rows<'a, R> {
         let left = Kind::Trajectory.max_bytes();
         let table = Table::open(Bounded { input, left }, &|_| false);
         let table = table.map_err(|error| fault(file, error))?;
+        let line = table.layout().header;
         let mut columns = [0; 4];
         for (place, column) in columns.iter_mut().zip(INPUT_COLUMNS) {
             let names = table.layout().columns.iter().enumerate();
@@ -44,12 +45,14 @@ impl<'a, R: Read> Rows<'a, R> {
                 .next()
                 .ok_or_else(|| RenderError::MissingColumn {
                     file: file.to_owned(),
+                    line,
                     column,
                 })?
                 .0;
             if found.next().is_some() {
                 return Err(RenderError::RepeatedColumn {
                     file: file.to_owned(),
+                    line,
                     column,
                 });
             }

@@ -62,21 +62,19 @@ impl Entry {
             ));
         }
         let clock = clock(path, &header);
-        let accelerated = by_gravity(path, &header, &channels, None);
         let unit = channels
             .iter()
             .find(|channel| channel.quantity == Quantity::Acceleration)
             .and_then(|channel| channel.unit);
-        let shows_gravity =
-            accelerated.is_some() || by_gravity(path, &header, &channels, unit).is_some();
+        let gravity = by_gravity(path, &header, &channels, unit);
         Ok(Self {
             file: file.to_owned(),
             header,
             channels,
             left_out,
             clock,
-            accelerated,
-            shows_gravity,
+            accelerated: gravity.filter(|_| unit.is_none()),
+            shows_gravity: gravity.is_some(),
         })
     }
 
