@@ -69,11 +69,14 @@ impl TableError {
     }
 }
 
+/// The head that was looked at, and the rest.
+type Input<R> = Lines<Chain<Cursor<Vec<u8>>, R>>;
+
 /// The rows of a table, one at a time: a table is never held in memory as a whole.
 #[derive(Debug)]
 pub struct Table<R> {
     layout: Layout,
-    reader: csv::Reader<Blanks<Lines<Chain<Cursor<Vec<u8>>, R>>>>,
+    reader: csv::Reader<Blanks<Input<R>>>,
     record: ByteRecord,
     /// Bytes of the row that is read.
     row_bytes: Rc<Cell<usize>>,
