@@ -86,7 +86,9 @@ impl Rows {
         // The first of those that are equal.
         parted.fold(none, |best, next| {
             let better = (next.numbers, next.width.min(2)) > (best.numbers, best.width.min(2));
-            if better || best.width == 0 {
+            // A text may hold blanks, and numbers between them.
+            let is_text = next.separator == Separator::Blanks && next.numeric.contains(&false);
+            if better && !(is_text && best.width > 1) || best.width == 0 {
                 next
             } else {
                 best

@@ -85,6 +85,12 @@ fn what_stands_around_a_header_is_kept_for_who_asks() {
         read("t,0,1\n0,1,2\n1,2,3\n").expect("a table").0,
         ["t", "0", "1"]
     );
+    // Numbers in a text that holds blanks.
+    for separator in [",", ";", "\t"] {
+        let rows = "t,label,x\n0,stroke 1 2,1\n1,stroke 1 3,2\n2,air 4 5,3\n3,air 4 6,4\n";
+        let found = read(&rows.replace(',', separator)).expect("a table");
+        assert_eq!((found.0.len(), found.2[3][2]), (3, 4.0), "{separator:?}");
+    }
     // A comment behind one row.
     let text = "X_Value\tx\tComment\n0\t1\n1\t2\thit\n2\t3\n3\t4\n";
     assert_eq!(read(text).expect("a table").2.len(), 4);
