@@ -14,6 +14,7 @@ use std::{
 type Check = fn(&Case);
 
 const CHECKS: &[(&str, Check)] = &[
+    ("calibrate-wrong-unit", units_of_a_calibration_are_checked),
     ("cyclictest-without-histogram", a_missing_histogram_is_named),
     ("jitter-foreign-texts", other_tools_are_read_or_named),
     ("jitter-units", heads_state_units),
@@ -64,6 +65,34 @@ impl Case {
         let json: Value = serde_json::from_slice(&run.stdout).expect("JSON");
         let median = &json["runs"][0]["percentiles_ns"]["p50"];
         Ok(median.as_f64().expect("a median"))
+    }
+}
+
+fn units_of_a_calibration_are_checked(case: &Case) {
+    let run = |name: &str, options: &[&str]| {
+        let file = case.file(name);
+        let command = ["device", "calibrate", &file, "-o", "x.toml"];
+        let output = case.lab(&[&command, options].concat());
+        let written = fs::read_to_string(case.scratch.path().join("x.toml")).ok();
+        // The next one begins without it.
+        let _ = fs::remove_file(case.scratch.path().join("x.toml"));
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        (output.status.code(), said, written)
+    };
+    let (code, said, written) = run("ok.csv", &[]);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(written.expect("a profile").contains("taps = [1.388"));
+    for (name, words) in [
+        ("g.csv", ["accel_m_s2", "9.8", "g"]),
+        ("mn.csv", ["force_n", "1000", "mN"]),
+    ] {
+        let (code, said, written) = run(name, &[]);
+        assert_eq!((code, written), (Some(1), None), "{name}: {said}");
+        for word in words {
+            assert!(said.contains(word), "{name}: {word}: {said}");
+        }
+        let (code, said, _) = run(name, &["--force"]);
+        assert!(said.contains("warning"), "{name}, --force: {code:?} {said}");
     }
 }
 
