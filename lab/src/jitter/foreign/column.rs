@@ -19,13 +19,18 @@ pub(super) fn of_column(
     let headless = first.iter().all(|cell| number(cell).is_some());
     let names: Vec<&str> = first.iter().map(String::as_str).collect();
     let heads: Vec<Head> = names.iter().map(|name| Head::of(name)).collect();
+    let percentiles = ForeignError::NotRead {
+        what: "a table of percentiles, which are no samples",
+        remedy: "give the latencies themselves, or for a percentiles.csv the run.hlog beside it",
+    };
+    let is_table = |head: &Head| head.words == ["percentile"] || head.words == ["quantile"];
+    if heads.iter().any(is_table) {
+        return Err(percentiles);
+    }
     let at = chosen(&names, &heads, stage, column)
         .ok_or_else(|| ForeignError::Column(names.join(", ")))?;
-    if heads[at].is_percentile() || heads.iter().any(|head| head.words == ["percentile"]) {
-        return Err(ForeignError::NotRead {
-            what: "a table of percentiles, which are no samples",
-            remedy: "give the latencies themselves, or for a percentiles.csv the run.hlog beside it",
-        });
+    if heads[at].is_percentile() {
+        return Err(percentiles);
     }
     let stated = match &heads[at].unit {
         Stated::Time(stated) => Some(*stated),

@@ -142,7 +142,7 @@ fn what_holds_no_latencies_is_refused_by_line_and_column() {
         ("wakeup_ns\n0.2\n0.3\n", "below 1 ns"),
         (
             "stage,kind,percentile,value_ns\nwakeup,raw,50,9\n",
-            "not clear",
+            "percentiles",
         ),
         ("percentile,wakeup_us\n50,23\n99,31\n", "percentiles"),
         ("p99_us\n50\n", "percentiles"),

@@ -22,7 +22,7 @@ use asperity_lab::capture::{
 use asperity_lab::servo_session::{OpenDevice, Setup, Surface, run as run_loop, run_unfelt};
 use asperity_recording::description::Quantity;
 
-use crate::error::Plain;
+use crate::error::{Plain, all};
 use crate::loop_options::{self, Interrupt, LoopOptions, stop_on_interrupt};
 use attendant::{Attendant, End};
 use summary::Summary;
@@ -242,25 +242,30 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         full_acceleration: arguments.accel.full_acceleration,
         full_force: arguments.accel.full_force,
     };
-    write(outputs, &files, &about, &recorded.take, &part).map_err(one)?;
-    folder.keep();
+    let written = write(outputs, &files, &about, &recorded.take, &part).map_err(one);
+    let is_kept = written.is_ok();
+    if is_kept {
+        folder.keep();
+    }
     let summary = Summary {
         folder: &arguments.folder,
         device: &device,
         sensor: &arguments.accel.name,
         recorded: &recorded,
         part: &part,
+        is_kept,
     };
     summary.warn(console);
-    if arguments.json {
-        console.json(&summary.json()).map_err(one)?;
+    let printed = if arguments.json {
+        console.json(&summary.json())
     } else {
-        console.report(&summary.text()).map_err(one)?;
-    }
-    if recorded.end == End::Lost {
-        return Err(recorded.failures);
-    }
-    Ok(())
+        console.report(&summary.text())
+    };
+    let lost = match recorded.end {
+        End::Lost => Err(recorded.failures),
+        _ => Ok(()),
+    };
+    all([written, printed.map_err(one), lost])
 }
 
 /// Name of the material.

@@ -20,6 +20,8 @@ pub(super) struct Summary<'s> {
     pub(super) sensor: &'s str,
     pub(super) recorded: &'s Recorded,
     pub(super) part: &'s Part,
+    /// Whether the folder was written.
+    pub(super) is_kept: bool,
 }
 
 fn end(end: End) -> &'static str {
@@ -60,12 +62,13 @@ impl Summary<'_> {
         if self.part.is_cut {
             warnings.push("everything after a gap of 0.9 s was left out".into());
         }
-        match recording::check(self.folder) {
-            Ok((_, checked, _)) => {
+        match self.is_kept.then(|| recording::check(self.folder)) {
+            Some(Ok((_, checked, _))) => {
                 let found = checked.at_least(Severity::Warning);
                 warnings.extend(found.map(ToString::to_string));
             }
-            Err(error) => warnings.push(error.to_string()),
+            Some(Err(error)) => warnings.push(error.to_string()),
+            None => {}
         }
         for warning in warnings {
             console.warn(&warning);
@@ -85,7 +88,7 @@ impl Summary<'_> {
         let (covered, cells) = coverage.covered();
         let (touches, samples) = self.part.rows();
         json!({
-            "folder": self.folder.display().to_string(), "device": self.device,
+            "folder": self.is_kept.then(|| self.folder.display().to_string()), "device": self.device,
             "sensor": self.sensor, "end": end(self.recorded.end),
             "seconds": self.part.seconds, "touches": touches, "samples": samples,
             "sensor_rate_hz": self.part.rate_hz, "missed": missed,
@@ -104,7 +107,11 @@ impl Summary<'_> {
         format!(
             "{}\nrecording  {}, {:.1} s\ndevice     {}, {touches} positions, {}\nsensor     {}, {samples} samples at {:.1} Hz\ncovered    {covered} of {cells} cells; taps {}; {:.0} s in the air\nend        {}\n",
             screen::grid(exploration),
-            display(self.folder),
+            if self.is_kept {
+                display(self.folder).to_string()
+            } else {
+                "not kept".into()
+            },
             self.part.seconds,
             self.device,
             counted(self.recorded.missed, "missed period", "missed periods"),
