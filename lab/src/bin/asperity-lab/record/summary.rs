@@ -46,6 +46,12 @@ impl Summary<'_> {
                 counted(counts.bad_lines, "invalid line", "invalid lines")
             ));
         }
+        if self.part.misdated > 0 {
+            warnings.push(format!(
+                "{} left out, because the time stamp was damaged on the way",
+                counted(self.part.misdated as u64, "sample was", "samples were")
+            ));
+        }
         if counts.missing > 0 {
             warnings.push(format!(
                 "{} from the sensor",
@@ -95,6 +101,7 @@ impl Summary<'_> {
             "covered": covered, "cells": cells, "cell_seconds": coverage.rows(),
             "taps": exploration.taps(), "air_s": exploration.air_s(),
             "bad_lines": counts.bad_lines, "missing_values": counts.missing,
+            "misdated_samples": self.part.misdated,
             "lost_ticks": lost.0, "lost_samples": lost.1,
         })
     }
