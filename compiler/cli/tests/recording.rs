@@ -253,7 +253,7 @@ fn what_is_wrong_is_named_with_file_and_line() {
     for (table, description, told) in [
         (
             &good,
-            description().replace("unit = \"N\"", "unit = \"lbf\""),
+            description().replace("unit = \"N\"", "unit = \"dyn\""),
             "recording.toml:",
         ),
         (

@@ -1,5 +1,6 @@
 //! What can be wrong with a recording, where, and what to do about it.
 
+use crate::description::Proposal;
 use asperity_io::diagnostic::Diagnostic;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -50,10 +51,10 @@ pub enum Problem {
     #[error("cannot be read ({0})")]
     Unreadable(#[source] std::io::Error),
     /// The folder has no description; one is proposed from the files' headers.
-    #[error("the folder has no recording.toml")]
+    #[error("the folder has no recording.toml{}", of_no_file(proposal.as_ref()))]
     NoDescription {
         /// A description to start from.
-        proposal: Option<String>,
+        proposal: Option<Proposal>,
     },
     /// The description is not valid TOML, or lacks a key.
     #[error("{0}")]
@@ -168,6 +169,16 @@ pub enum Problem {
     TooLittle(String),
 }
 
+/// Why there is nothing to propose, where the folder holds files of a recording all the same.
+fn of_no_file(proposal: Option<&Proposal>) -> String {
+    match proposal {
+        Some(Proposal { files: 0, text }) => {
+            format!(", and no file that can be used as it is\n{}", text.trim())
+        }
+        _ => String::new(),
+    }
+}
+
 /// How far two rates are apart, as a factor above 1.
 fn factor(one: f64, other: f64) -> f64 {
     (one / other).max(other / one)
@@ -177,6 +188,9 @@ impl Problem {
     fn remedy(&self) -> String {
         match self {
             Self::Unreadable(_) => "check the name under `file` in recording.toml".into(),
+            Self::NoDescription {
+                proposal: Some(Proposal { files: 0, .. }),
+            } => "do what is said of each file, then run `asperity record-check --init`".into(),
             Self::NoDescription { proposal: Some(_) } => {
                 "`asperity record-check --init` writes a draft of it into the folder; correct its guesses"
                     .into()

@@ -1,15 +1,12 @@
-//! Files that end, and lines that end: what else a path may lead to would be read for ever.
+//! Files that end: what else a path may lead to would be read for ever.
 
 use crate::error::{Problem, RecordingError};
 use asperity_io::input::{Format, HEAD};
 use std::{
     fs::File,
-    io::{self, Read, Seek as _},
+    io::{Read as _, Seek as _},
     path::Path,
 };
-
-/// Longest line of a table, bytes.
-const MAX_LINE: usize = 64 * 1024;
 
 /// Opens a regular file with something in it. Pipes, sockets and devices have no end and are refused,
 /// and so are files of other known formats than a recording has, by their names.
@@ -45,60 +42,9 @@ pub(crate) fn open(path: &Path) -> Result<File, RecordingError> {
     Err(RecordingError::of(path, problem))
 }
 
-/// A reader that fails where a line is longer than any table has.
-#[derive(Debug)]
-pub(crate) struct Lines<R> {
-    inner: R,
-    /// Bytes since the last line end.
-    length: usize,
-}
-
-impl<R> Lines<R> {
-    pub(crate) fn new(inner: R) -> Self {
-        Self { inner, length: 0 }
-    }
-}
-
-impl<R: Read> Read for Lines<R> {
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let room = buffer.len().min(MAX_LINE);
-        let count = self.inner.read(&mut buffer[..room])?;
-        let is_end = |byte: &u8| matches!(byte, b'\n' | b'\r');
-        self.length = match buffer[..count].iter().rposition(is_end) {
-            Some(end) => count - end - 1,
-            None => self.length + count,
-        };
-        if self.length > MAX_LINE {
-            return Err(io::Error::other("a line is longer than 64 KiB"));
-        }
-        Ok(count)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn lines_may_be_many_and_not_endless() {
-        let mut text = String::new();
-        let many = "1,2\n".repeat(100_000);
-        Lines::new(many.as_bytes())
-            .read_to_string(&mut text)
-            .expect("short lines");
-        assert_eq!(text.len(), many.len());
-        // The longest line, after an end, read in two parts.
-        for (length, fits) in [(MAX_LINE, true), (MAX_LINE + 1, false)] {
-            let text = format!("1\n{}", "x".repeat(length));
-            let read =
-                Lines::new(text.as_bytes()).read_to_end(&mut Vec::with_capacity(4 * MAX_LINE));
-            assert_eq!(read.is_ok(), fits, "{length}");
-        }
-        let error = Lines::new(io::repeat(0))
-            .read_to_end(&mut Vec::new())
-            .expect_err("endless");
-        assert!(error.to_string().contains("longer than 64 KiB"));
-    }
 
     #[test]
     fn what_is_no_recording_is_called_what_it_is() {

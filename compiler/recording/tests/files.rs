@@ -96,11 +96,11 @@ fn a_folder_without_description_gets_a_proposal() {
         panic!("no proposal: {error}");
     };
     assert!(
-        proposal.contains("column = \"az\"") && proposal.contains("clock = \"t\""),
-        "{proposal}"
+        proposal.text.contains("column = \"az\"") && proposal.text.contains("clock = \"t\""),
+        "{proposal:?}"
     );
     // The proposal is a description as it stands.
-    fs::write(folder.path().join("recording.toml"), proposal).expect("written");
+    fs::write(folder.path().join("recording.toml"), &proposal.text).expect("written");
     reader::load(folder.path()).expect("a recording");
 }
 

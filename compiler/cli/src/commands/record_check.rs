@@ -9,9 +9,9 @@ use asperity_io::{
     shown::counted,
 };
 use asperity_recording::{
-    Problem,
+    Problem, RecordingError,
     check::{Checked, Severity},
-    description::{FILE_NAME, propose},
+    description::{FILE_NAME, is_absent, propose},
 };
 use serde_json::json;
 use std::path::PathBuf;
@@ -61,11 +61,17 @@ fn init(args: &RecordCheck, console: Console) -> Result<(), Failures> {
     std::fs::read_dir(&args.folder)
         .map_err(|error| one(NoDraft::Folder(args.folder.clone(), error)))?;
     let path = args.folder.join(FILE_NAME);
-    if path.exists() {
+    if !is_absent(&args.folder) {
         return Err(one(NoDraft::Exists(path)));
     }
     let draft = propose(&args.folder).map_err(one)?;
     let draft = draft.ok_or_else(|| one(NoDraft::NoFiles(args.folder.clone())))?;
+    if draft.files == 0 {
+        let proposal = Some(draft);
+        let problem = Problem::NoDescription { proposal };
+        return Err(one(RecordingError::of(&args.folder, problem)));
+    }
+    let draft = draft.text;
     let mut outputs = Outputs::beside([&args.folder]);
     let file = outputs.open(&path).map_err(one)?;
     outputs.fill(file, draft.as_bytes()).map_err(one)?;
@@ -92,9 +98,10 @@ pub(crate) fn run(args: &RecordCheck, console: Console) -> Result<(), Failures> 
             if let Problem::NoDescription {
                 proposal: Some(proposal),
             } = &error.problem
+                && proposal.files > 0
                 && !args.json
             {
-                console.text(proposal).map_err(one)?;
+                console.text(&proposal.text).map_err(one)?;
             }
             return Err(one(error));
         }

@@ -47,6 +47,18 @@ impl Case {
         path.to_str().expect("a path in UTF-8").to_owned()
     }
 
+    /// A folder of the case in the scratch folder.
+    fn copied(&self, folder: &str) -> PathBuf {
+        let copy = self.scratch.path().join(folder);
+        fs::create_dir(&copy).expect("a folder");
+        for entry in fs::read_dir(self.file(folder)).expect("the folder") {
+            let path = entry.expect("an entry").path();
+            let name = path.file_name().expect("a name");
+            fs::copy(&path, copy.join(name)).expect("a copy");
+        }
+        copy
+    }
+
     fn asperity(&self, arguments: &[&str]) -> Run {
         let output = Command::new(env!("CARGO_BIN_EXE_asperity"))
             .args(arguments)

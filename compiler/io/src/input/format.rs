@@ -58,6 +58,16 @@ pub enum Format {
     Hdf5,
     /// A NumPy array.
     Numpy,
+    /// Many NumPy arrays.
+    NumpyArchive,
+    /// LabVIEW data.
+    Tdms,
+    /// Columns of Parquet, Arrow or Feather.
+    Parquet,
+    /// Messages of ROS.
+    RosBag,
+    /// A database.
+    Sqlite,
     /// An Excel workbook.
     Excel,
     /// Sound or a recording.
@@ -93,7 +103,7 @@ impl Format {
             text.get(..tag.len())
                 .is_some_and(|start| start.eq_ignore_ascii_case(tag.as_bytes()))
         };
-        let magics: [(&[u8], Self); 10] = [
+        let magics: [(&[u8], Self); 16] = [
             (b"ASPT", Self::Asset),
             (b"ASPL", Self::Library),
             (b"glTF", Self::Gltf),
@@ -101,6 +111,12 @@ impl Format {
             (b"MATLAB 7.3 MAT-file", Self::Matlab),
             (b"\x89HDF\r\n\x1a\n", Self::Hdf5),
             (b"\x93NUMPY", Self::Numpy),
+            (b"TDSm", Self::Tdms),
+            (b"PAR1", Self::Parquet),
+            (b"ARROW1", Self::Parquet),
+            (b"#ROSBAG V", Self::RosBag),
+            (b"\x89MCAP", Self::RosBag),
+            (b"SQLite format 3\0", Self::Sqlite),
             (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", Self::Excel),
             (b"\x89PNG\r\n\x1a\n", Self::Png),
             (b"%PDF-", Self::Pdf),
@@ -112,7 +128,11 @@ impl Format {
         } else if head.starts_with(b"RIFF") && head.get(8..12) == Some(b"WAVE") {
             Some(Self::Wav)
         } else if head.starts_with(b"PK\x03\x04") {
-            Some(if has(b"xl/") { Self::Excel } else { Self::Zip })
+            Some(match (has(b"xl/"), has(b".npy")) {
+                (true, _) => Self::Excel,
+                (_, true) => Self::NumpyArchive,
+                _ => Self::Zip,
+            })
         } else if head.starts_with(b"\x1f\x8b") {
             Some(Self::Gzip)
         } else if opens("<!doctype html") || opens("<html") {
@@ -192,6 +212,11 @@ impl Format {
             Self::Matlab => "a MATLAB file (.mat)",
             Self::Hdf5 => "an HDF5 file",
             Self::Numpy => "a NumPy array",
+            Self::NumpyArchive => "an archive of NumPy arrays (.npz)",
+            Self::Tdms => "a LabVIEW TDMS file (.tdms)",
+            Self::Parquet => "a file of Parquet or Arrow columns",
+            Self::RosBag => "a bag of ROS messages",
+            Self::Sqlite => "an SQLite database",
             Self::Excel => "an Excel workbook",
             Self::Wav => "a WAV file",
             Self::Png => "a PNG picture",
@@ -200,6 +225,27 @@ impl Format {
             Self::Zip => "a zip archive",
             Self::Gzip => "a gzip archive",
         }
+    }
+
+    /// Whether the numbers of a recording may be in it.
+    #[must_use]
+    pub const fn holds_data(self) -> bool {
+        matches!(
+            self,
+            Self::Matlab
+                | Self::Hdf5
+                | Self::Numpy
+                | Self::NumpyArchive
+                | Self::Tdms
+                | Self::Parquet
+                | Self::RosBag
+                | Self::Sqlite
+                | Self::Excel
+                | Self::Wav
+                | Self::Zip
+                | Self::Gzip
+                | Self::LfsPointer
+        )
     }
 
     /// The command that reads it, or how it becomes something that is read.
@@ -233,7 +279,14 @@ impl Format {
                 "a scene is not read: give the effect that it refers to, such as an HJIF, to `asperity \
                  import hjif`"
             }
-            Self::Matlab | Self::Hdf5 | Self::Numpy => {
+            Self::Matlab
+            | Self::Hdf5
+            | Self::Numpy
+            | Self::NumpyArchive
+            | Self::Tdms
+            | Self::Parquet
+            | Self::RosBag
+            | Self::Sqlite => {
                 "export its numbers as CSV; a recording goes to `asperity import recording`"
             }
             Self::Excel => "save the sheet as CSV",

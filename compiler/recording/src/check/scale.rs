@@ -1,11 +1,11 @@
-//! Units that cannot be right: gravity, inertia and motion are the same for everybody.
+//! Units and ranges that cannot be right: gravity, inertia and motion are the same for everybody.
 
 use super::{
     delay::{motion, vibration},
     verdict::{Finding, Kind, Severity},
 };
 use crate::{
-    description::{Axis, GRAVITY_M_S2, Quantity},
+    description::{Axis, GRAVITY_M_S2, Quantity, Unit},
     reader::Recording,
     signal::quantile::{mean, quantile},
     timeline::{Aligned, Timeline},
@@ -25,6 +25,10 @@ const FACTORS: [f64; 7] = [
 const GRAVITY_TOLERANCE: f64 = 1.25;
 const MOTION_TOLERANCE: f64 = 1.8;
 const MASS_TOLERANCE: f64 = 2.6;
+/// How near a factor must be to that between two units to be a wrong unit, not a wrong range.
+const UNIT_TOLERANCE: f64 = 1.08;
+/// Least steady acceleration that is gravity, as a part of it: less is the bias of a sensor that shows none.
+const LEAST_GRAVITY: f64 = 0.3;
 /// Least correlation of two channels that measure the same.
 const LEAST_CORRELATION: f64 = 0.3;
 /// Speeds of strokes, mm/s, and loads, N, that a hand has.
@@ -114,10 +118,28 @@ pub(super) fn check(
     {
         wrong.push((Quantity::Force, f, "the load of a hand"));
     }
+    let unchecked = gravity.is_none() && of_motion.is_none() && of_mass.is_none();
+    let known = wrong.iter().any(|(q, ..)| *q == Quantity::Acceleration);
+    let unchecked = (unchecked && !known).then(|| unchecked_scale(recording));
     wrong
         .into_iter()
         .map(|(quantity, factor, by)| finding(recording, quantity, factor, by))
+        .chain(unchecked.flatten())
         .collect()
+}
+
+/// An acceleration that nothing tells the scale of.
+fn unchecked_scale(recording: &Recording) -> Option<Finding> {
+    let quantity = Quantity::Acceleration;
+    let channel = recording.channels.iter().find(|c| c.quantity == quantity)?;
+    Some(Finding::of_channel(
+        &channel.file,
+        &quantity.to_string(),
+        Kind::Gravity,
+        Severity::Note,
+        "its scale cannot be checked: it shows no gravity, and no motion or force that another channel has".into(),
+        "look up unit and range of the sensor, or record three axes that show gravity",
+    ))
 }
 
 fn has(recording: &Recording, quantity: Quantity) -> bool {
@@ -135,8 +157,25 @@ fn finding(recording: &Recording, quantity: Quantity, factor: f64, by: &str) -> 
     } else {
         format!("{:.4} times too small", 1.0 / factor)
     };
-    let what = format!("wrong unit: its values are {words}, by {by}");
-    let remedy = format!("correct `unit` of {quantity} in recording.toml");
+    let (kind, remedy) = match fitting(recording, quantity, factor) {
+        Some(Some(unit)) => (
+            "unit",
+            format!("correct `unit` of {quantity} in recording.toml: {unit:?} would fit"),
+        ),
+        Some(None) => (
+            "unit",
+            format!("correct `unit` of {quantity} in recording.toml"),
+        ),
+        None => (
+            "range",
+            format!(
+                "write the range that the sensor was set to (±2 g read as ±4 g gives a factor of 2), or multiply \
+                 `scale` of {quantity} in recording.toml by {:.4}",
+                1.0 / factor
+            ),
+        ),
+    };
+    let what = format!("wrong {kind}: its values are {words}, by {by}");
     Finding::of_channel(
         file,
         &quantity.to_string(),
@@ -147,7 +186,20 @@ fn finding(recording: &Recording, quantity: Quantity, factor: f64, by: &str) -> 
     )
 }
 
-/// By which factor the acceleration at rest differs from gravity; `None` for a sensor without a
+/// The unit that a factor stands for, if there is one that a description can name; `None` for a factor that lies
+/// between no two units.
+fn fitting(recording: &Recording, quantity: Quantity, factor: f64) -> Option<Option<&'static str>> {
+    let near = |one: f64, other: f64| (one / other).max(other / one) < UNIT_TOLERANCE;
+    let files = recording.description.files.iter();
+    let mut channels = files.flat_map(|file| &file.channels);
+    let unit = channels.find(|c| c.quantity == quantity).map(|c| c.unit);
+    let fits =
+        unit.and_then(|unit| Unit::worth(quantity, |to_si| near(to_si, unit.to_si / factor)));
+    let is_known = FACTORS.iter().any(|known| near(*known, factor));
+    (fits.is_some() || is_known).then_some(fits)
+}
+
+/// By which factor the acceleration at rest differs from gravity, 1 within a quarter; `None` for a sensor without a
 /// steady part.
 fn gravity_factor(recording: &Recording, aligned: &Aligned) -> Option<f64> {
     let axes: Vec<&Vec<f64>> = recording
@@ -173,7 +225,12 @@ fn gravity_factor(recording: &Recording, aligned: &Aligned) -> Option<f64> {
     if axes.len() < 3 || steady < moving {
         return None;
     }
-    factor([steady / GRAVITY_M_S2; 2], GRAVITY_TOLERANCE)
+    let found = steady / GRAVITY_M_S2;
+    match factor([found; 2], GRAVITY_TOLERANCE) {
+        Some(1.0) => Some(1.0),
+        near if found < LEAST_GRAVITY => near,
+        _ => factor([found; 2], UNIT_TOLERANCE).or(Some(found)),
+    }
 }
 
 /// The first over the second of pairs that go together, as the noise of the second and of the first make it: the slopes

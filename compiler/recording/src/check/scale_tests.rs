@@ -23,12 +23,17 @@ fn gravity_tells_the_unit_of_an_accelerometer_of_three_axes() {
     assert_eq!(accel(0.0, 0.0, 9.81), Some(1.0));
     // 6² + 6² + 5² is 9.85².
     assert_eq!(accel(6.0, -6.0, 5.0), Some(1.0));
-    assert_eq!(accel(0.0, 0.6, 0.8), Some(1.0 / 9.806_65));
-    assert_eq!(accel(0.0, 0.0, 9806.65), Some(1000.0));
     assert_eq!(accel(0.0, 0.0, 12.2), Some(1.0));
-    assert_eq!(accel(0.0, 0.0, 12.3), None);
     assert_eq!(accel(0.0, 0.0, 7.9), Some(1.0));
-    assert_eq!(accel(0.0, 0.0, 7.8), None);
+    // A unit, or a range, is wrong by whatever factor.
+    for steady in [1.0, 7.8, 12.3, 19.6, 255.0, 1000.0, 9806.65, 32_768.0] {
+        let found = accel(0.0, 0.6 * steady, 0.8 * steady).expect("gravity");
+        test_recordings::near(found, steady / 9.806_65, 1e-6 * steady);
+    }
+    // The bias of a sensor that shows no gravity.
+    for bias in [0.2, 0.5, 2.0, 2.9] {
+        assert_eq!(accel(0.0, 0.0, bias), None, "{bias}");
+    }
     let mut two = all(Quantity::Acceleration, [0.0, 0.0, 9.81]);
     two.remove(0);
     assert_eq!(factor_of(two), None);
@@ -109,6 +114,25 @@ fn the_ratio_is_that_of_the_surest_axis() {
 }
 
 #[test]
+fn a_factor_between_no_units_is_a_wrong_range() {
+    let recording = test_recordings::recording(all(Quantity::Acceleration, [0.0, 0.0, 1.0]));
+    for (factor, kind, remedy) in [
+        (1.0 / 9.806_65, "wrong unit", "unit"),
+        (1000.0, "wrong unit", "unit"),
+        (
+            8.0,
+            "wrong range",
+            "`scale` of acceleration in recording.toml by 0.1250",
+        ),
+        (2.0, "wrong range", "by 0.5000"),
+    ] {
+        let found = finding(&recording, Quantity::Acceleration, factor, "gravity");
+        assert!(found.what.starts_with(kind), "{factor}: {}", found.what);
+        assert!(found.remedy.contains(remedy), "{factor}: {}", found.remedy);
+    }
+}
+
+#[test]
 fn a_wrong_unit_is_told_with_its_factor_and_the_file() {
     let recording = test_recordings::recording(all(Quantity::Force, [0.0; 3]));
     let large = finding(&recording, Quantity::Force, 1000.0, "x");
@@ -147,8 +171,12 @@ fn told(speed_mm_s: f64, load_n: f64, dead: [bool; 3]) -> Vec<(String, bool)> {
     let mut timeline = test_recordings::timeline(aligned.count);
     timeline.speed_mm_s.fill(speed_mm_s);
     timeline.load_n.fill(load_n);
-    check(&recording, &aligned, &timeline, &dead)
+    let found = check(&recording, &aligned, &timeline, &dead);
+    let notes = found.iter().filter(|f| f.severity == Severity::Note);
+    assert_eq!(notes.count(), 1, "one axis without gravity tells no scale");
+    found
         .into_iter()
+        .filter(|f| f.severity == Severity::Fault)
         .map(|f| (f.channel, f.what.contains("too large")))
         .collect()
 }

@@ -40,7 +40,7 @@ const TIMES: [(&str, &[&str]); 4] = [
 ];
 
 /// Spellings of units that a description writes in one way. Their case counts: mN is no MN.
-const SPELLINGS: [(&str, &[&str]); 17] = [
+const SPELLINGS: [(&str, &[&str]); 18] = [
     (
         "m/s^2",
         &[
@@ -54,7 +54,8 @@ const SPELLINGS: [(&str, &[&str]); 17] = [
     ("N", &["N", "n", "newton", "newtons", "Newton", "Newtons"]),
     ("mN", &["mN", "mn"]),
     ("kN", &["kN", "kn"]),
-    ("kgf", &["kgf", "kg-f"]),
+    ("kgf", &["kgf", "kg-f", "kg"]),
+    ("lbf", &["lbf", "lb", "lbs"]),
     ("gf", &["gf", "g-f"]),
     ("N*m", &["N*m", "Nm", "N·m", "N.m", "N-m", "nm"]),
     ("N*mm", &["N*mm", "Nmm", "N·mm", "N.mm", "N-mm"]),
@@ -77,16 +78,59 @@ pub(crate) enum Meaning {
         axis: Axis,
         unit: Option<Unit>,
     },
+    /// A quantity in a unit that is none of its own.
+    OtherUnit(Quantity),
     /// An axis without a quantity: `x`.
     Bare(Axis),
     /// Nothing that is known.
     Unknown,
 }
 
-/// The meaning of a column's name.
+/// The meaning of a column's name. Of a path, such as `/imu/linear_acceleration/x`, the end tells.
 pub(crate) fn meaning(name: &str) -> Meaning {
     let (stem, unit) = split(name.trim());
-    let words = words(&stem);
+    if stem == "X_Value" {
+        // LabVIEW's name of the time.
+        return Meaning::Clock(None);
+    }
+    let whole = of_words(&words(&stem), unit);
+    let mut parts = stem.rsplit(['/', '.']).filter(|part| !part.is_empty());
+    let (Some(last), Some(before)) = (parts.next(), parts.next()) else {
+        return whole;
+    };
+    match (whole, unit) {
+        (Meaning::Unknown, _) => {}
+        // Seconds of what?
+        (_, Some(Symbol::Time(_))) if !words(&stem).iter().any(|word| is_time(word)) => {
+            return Meaning::Unknown;
+        }
+        _ => return whole,
+    }
+    // A bare axis says nothing without what stands before it, and the parts of a stamp are no clock.
+    let ends = [format!("{before} {last}"), last.to_owned()];
+    let ends = ends.map(|end| of_words(&words(&end), unit));
+    let told = |end: &Meaning| matches!(end, Meaning::Channel { .. } | Meaning::OtherUnit(_));
+    ends.into_iter().find(told).unwrap_or(Meaning::Unknown)
+}
+
+/// Whether a field may stand in a row of units.
+pub(crate) fn is_unit(field: &str) -> bool {
+    let field = field.trim_matches(['(', ')', '[', ']']);
+    symbol(field).is_some() || OTHER_UNITS.contains(&field)
+}
+
+/// Units of what else a logger writes.
+const OTHER_UNITS: [&str; 24] = [
+    "-", "V", "mV", "A", "mA", "deg", "°", "rad", "deg/s", "°/s", "rad/s", "Hz", "%", "°C", "C",
+    "K", "Pa", "kPa", "bar", "uT", "µT", "W", "in", "cm/s",
+];
+
+/// The quantity that the name of a group of columns says.
+pub(crate) fn in_group(group: &str) -> Option<Quantity> {
+    words(group).iter().rev().find_map(|word| quantity_of(word))
+}
+
+fn of_words(words: &[String], mut unit: Option<Symbol>) -> Meaning {
     if let Some(Symbol::Time(unit)) = unit {
         return Meaning::Clock(Some(unit));
     }
@@ -96,17 +140,22 @@ pub(crate) fn meaning(name: &str) -> Meaning {
             Some(_) => Meaning::Unknown,
         };
     }
-    if let (None, [word]) = (unit, &words[..])
+    if let (None, [word]) = (unit, words)
         && let Some(unit) = time(word)
     {
         return Meaning::Clock(Some(unit));
     }
     let (mut quantity, mut axis) = (None, None);
-    for word in &words {
+    for word in words {
         let (of_word, along) = match quantity_of(word) {
             Some(quantity) => (Some(quantity), None),
             None => match short(word) {
-                Some((quantity, along)) => (Some(quantity), Some(along)),
+                Some((quantity, along)) => {
+                    if word.starts_with("gf") {
+                        unit = unit.or(Some(Symbol::Of("g")));
+                    }
+                    (Some(quantity), Some(along))
+                }
                 None => (None, axis_of(word)),
             },
         };
@@ -124,14 +173,22 @@ pub(crate) fn meaning(name: &str) -> Meaning {
     }
     let along = axis.unwrap_or(Axis::Along);
     match (quantity, unit) {
-        (Some(quantity), Some(Symbol::Of(spelling))) => match Unit::named(spelling, quantity) {
-            Some(unit) => Meaning::Channel {
-                quantity,
-                axis: along,
-                unit: Some(unit),
-            },
-            None => Meaning::Unknown,
-        },
+        (Some(quantity), Some(Symbol::Of(spelling))) => {
+            // A scale shows grams where it weighs a force.
+            let spelling = match (quantity, spelling) {
+                (Quantity::Force, "g") => "gf",
+                _ => spelling,
+            };
+            match Unit::named(spelling, quantity) {
+                Some(unit) => Meaning::Channel {
+                    quantity,
+                    axis: along,
+                    unit: Some(unit),
+                },
+                None => Meaning::OtherUnit(quantity),
+            }
+        }
+        (Some(quantity), Some(Symbol::Strange)) => Meaning::OtherUnit(quantity),
         (Some(quantity), None) => Meaning::Channel {
             quantity,
             axis: along,
@@ -152,8 +209,10 @@ pub(crate) fn meaning(name: &str) -> Meaning {
 }
 
 /// Words that go with a quantity and say nothing of their own.
-const FILLERS: [&str; 16] = [
+const FILLERS: [&str; 18] = [
     "linear",
+    "total",
+    "cell",
     "lin",
     "raw",
     "sensor",
@@ -174,7 +233,15 @@ const FILLERS: [&str; 16] = [
 fn is_time(word: &str) -> bool {
     matches!(
         word,
-        "t" | "time" | "timestamp" | "clock" | "elapsed" | "zeit" | "temps" | "tempo"
+        "t" | "time"
+            | "timestamp"
+            | "datetime"
+            | "date"
+            | "clock"
+            | "elapsed"
+            | "zeit"
+            | "temps"
+            | "tempo"
     )
 }
 
@@ -211,6 +278,10 @@ fn short(word: &str) -> Option<(Quantity, Axis)> {
     match word {
         "fn" => return Some((Quantity::Force, Axis::Z)),
         "ft" => return Some((Quantity::Force, Axis::Along)),
+        // In g, as phones show it.
+        "gfx" => return Some((Quantity::Acceleration, Axis::X)),
+        "gfy" => return Some((Quantity::Acceleration, Axis::Y)),
+        "gfz" => return Some((Quantity::Acceleration, Axis::Z)),
         _ => {}
     }
     let (stem, axis) = word.split_at_checked(word.len().checked_sub(1)?)?;
@@ -275,7 +346,7 @@ fn split(name: &str) -> (String, Option<Symbol>) {
 }
 
 /// Lowercase words: at separators, digits, and before a capital that follows a small letter.
-fn words(stem: &str) -> Vec<String> {
+pub(super) fn words(stem: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut before = ' ';
     for c in stem.chars() {
@@ -344,6 +415,18 @@ mod tests {
             ("pos_x_um", Position, X, Some("um")),
             ("speed_mm_s", Speed, Along, Some("mm/s")),
             ("vx (mm/s)", Speed, X, Some("mm/s")),
+            ("Fz (kg)", Force, Z, Some("kgf")),
+            ("Force (g)", Force, Along, Some("gf")),
+            ("fz_g", Force, Z, Some("gf")),
+            ("Load cell (kg)", Force, Along, Some("kgf")),
+            ("Fz (lbf)", Force, Z, Some("lbf")),
+            ("gFx", Acceleration, X, Some("g")),
+            ("field.linear_acceleration.x", Acceleration, X, None),
+            ("/imu/linear_acceleration/y", Acceleration, Y, None),
+            ("field.wrench.force.z", Force, Z, None),
+            ("/ft/wrench/torque/x", Torque, X, None),
+            ("/tip/pose/position/x", Position, X, None),
+            ("AI 1/acc x (m/s2)", Acceleration, X, Some("m/s^2")),
         ] {
             assert_eq!(channel(name), (quantity, axis, unit), "{name}");
         }
@@ -363,6 +446,10 @@ mod tests {
             ("millis", Some("ms")),
             ("Zeit [s]", Some("s")),
             ("Time ms", Some("ms")),
+            ("%time", None),
+            ("__time", None),
+            ("X_Value", None),
+            ("Date/Time", None),
         ] {
             assert_eq!(meaning(name), Meaning::Clock(unit), "{name}");
         }
@@ -376,14 +463,24 @@ mod tests {
             "gyro_x",
             "gx (deg/s)",
             "temperature",
-            "Ax (deg)",
             "count",
+            "/imu/orientation/x",
+            "/imu/angular_velocity/x",
+            "field.header.stamp.secs",
+            "mass (kg)",
             "0",
             "",
         ] {
             assert_eq!(meaning(name), Meaning::Unknown, "{name}");
         }
         assert_eq!(meaning("x"), Meaning::Bare(Axis::X));
+        for (name, quantity) in [
+            ("Ax (deg)", Quantity::Acceleration),
+            ("X position [in]", Quantity::Position),
+            ("Fz (V)", Quantity::Force),
+        ] {
+            assert_eq!(meaning(name), Meaning::OtherUnit(quantity), "{name}");
+        }
         // Its magnitude lies along no axis.
         assert_eq!(meaning("Absolute acceleration (m/s^2)"), Meaning::Unknown);
     }

@@ -9,7 +9,7 @@
 //! let table = "time (s),acc_x (m/s^2)\n0.000,0.1\n0.001,0.2\n0.002,0.1\n";
 //! std::fs::write(folder.path().join("tool.csv"), table)?;
 //! let proposal = description::propose(folder.path())?.expect("a file of a known kind");
-//! assert!(proposal.contains("path = \"tool.csv\"") && proposal.contains("clock_unit = \"s\""));
+//! assert!(proposal.text.contains("path = \"tool.csv\"") && proposal.files == 1);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -19,10 +19,10 @@ mod quantity;
 mod read;
 mod schema;
 
-pub(crate) use column_name::{Meaning, meaning};
+pub(crate) use column_name::{Meaning, in_group, is_unit, meaning};
 pub(crate) use propose::TIME_UNITS;
-pub use propose::propose;
+pub use propose::{Proposal, propose};
 pub use quantity::{GRAVITY_M_S2, Quantity, Unit};
 pub(crate) use read::RATES_HZ;
-pub use read::{FILE_NAME, MAX_BYTES, read};
+pub use read::{FILE_NAME, MAX_BYTES, is_absent, read};
 pub use schema::{Axis, Channel, Column, Description, SensorFile, Tool};

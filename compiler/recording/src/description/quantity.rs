@@ -53,7 +53,7 @@ const fn unit(name: &'static str, quantity: Quantity, to_si: f64) -> Unit {
 /// Standard gravity, m/s².
 pub const GRAVITY_M_S2: f64 = 9.806_65;
 
-const UNITS: [Unit; 19] = [
+const UNITS: [Unit; 20] = [
     unit("m/s^2", Quantity::Acceleration, 1.0),
     unit("m/s²", Quantity::Acceleration, 1.0),
     unit("mm/s^2", Quantity::Acceleration, 1e-3),
@@ -64,6 +64,7 @@ const UNITS: [Unit; 19] = [
     unit("kN", Quantity::Force, 1e3),
     unit("kgf", Quantity::Force, GRAVITY_M_S2),
     unit("gf", Quantity::Force, 1e-3 * GRAVITY_M_S2),
+    unit("lbf", Quantity::Force, 4.448_221_615_260_5),
     unit("N*m", Quantity::Torque, 1.0),
     unit("N*mm", Quantity::Torque, 1e-3),
     unit("m", Quantity::Position, 1.0),
@@ -88,6 +89,13 @@ impl Unit {
     #[must_use]
     pub(crate) fn any(name: &str) -> Option<Self> {
         UNITS.into_iter().find(|unit| unit.name == name)
+    }
+
+    /// The name of the first unit of a quantity whose factor to SI is the one that is asked for.
+    #[must_use]
+    pub(crate) fn worth(quantity: Quantity, is: impl Fn(f64) -> bool) -> Option<&'static str> {
+        let mut all = UNITS.into_iter().filter(|unit| unit.quantity == quantity);
+        all.find(|unit| is(unit.to_si)).map(|unit| unit.name)
     }
 
     /// All units of a quantity, for an error.
@@ -130,6 +138,8 @@ mod tests {
             ("kN", Force, 1000.0),
             ("kgf", Force, 9.806_65),
             ("gf", Force, 0.009_806_65),
+            // 0.453 592 37 kg times standard gravity.
+            ("lbf", Force, 4.448_221_615_260_5),
             ("N*mm", Torque, 0.001),
             ("um", Position, 0.000_001),
             ("cm", Position, 0.01),

@@ -57,6 +57,19 @@ struct RawChannel {
     range: Option<[f64; 2]>,
 }
 
+/// Whether a folder has no description, or an empty one.
+#[must_use]
+pub fn is_absent(folder: &Path) -> bool {
+    let path = folder.join(FILE_NAME);
+    match std::fs::metadata(&path) {
+        Ok(file) if file.is_file() && file.len() <= MAX_BYTES => {
+            std::fs::read(&path).is_ok_and(|bytes| bytes.trim_ascii().is_empty())
+        }
+        Ok(_) => false,
+        Err(_) => path.symlink_metadata().is_err(),
+    }
+}
+
 /// Reads the description of a folder.
 ///
 /// # Errors
@@ -67,7 +80,7 @@ pub fn read(folder: &Path) -> Result<Description, RecordingError> {
         let kind = std::io::Error::other("it is no folder");
         return Err(RecordingError::of(folder, Problem::Unreadable(kind)));
     }
-    if !path.exists() {
+    if is_absent(folder) {
         let proposal = propose(folder)?;
         return Err(RecordingError::of(
             folder,

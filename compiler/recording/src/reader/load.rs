@@ -3,7 +3,7 @@
 use super::{Header, Remark, clock, header, rows};
 use crate::{
     channel::{Channel, Numbers},
-    description::{self, Column, Description, Meaning, RATES_HZ, SensorFile, TIME_UNITS, meaning},
+    description::{self, Column, Description, Meaning, RATES_HZ, SensorFile, TIME_UNITS},
     error::{Problem, RecordingError},
     signal::resample::Clock,
 };
@@ -281,7 +281,7 @@ fn unused_clock(path: &Path, header: &Header, stated_hz: f64) -> Option<(String,
         .iter()
         .enumerate()
         .filter_map(|(index, name)| {
-            let Meaning::Clock(_) = meaning(name) else {
+            let Meaning::Clock(_) = header.meaning(index) else {
                 return None;
             };
             let period = clock::period(path, index)?;

@@ -1,4 +1,4 @@
-//! Sensor files row by row: CSV, WAV, NumPy. A file is never held in memory as a whole.
+//! Sensor files row by row: tables in text, WAV, NumPy. A file is never held in memory as a whole.
 
 mod clock;
 mod csv;
@@ -12,14 +12,23 @@ pub(crate) use clock::period as clock_period;
 pub(crate) use load::FileClock;
 pub use load::{MAX_KEPT, Recording, load, load_at_most};
 
-use crate::error::{Problem, RecordingError};
+use crate::{
+    description::{Meaning, in_group, meaning},
+    error::{Problem, RecordingError},
+};
 use std::path::Path;
 
 /// What a file says of itself before its first row.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Header {
     /// Names of the columns; numbers from 0 where the file has no names.
     pub columns: Vec<String>,
+    /// What a row of units says of each column; none where there is no such row.
+    pub units: Vec<String>,
+    /// What rows above the header say of each column; none where there are none.
+    pub groups: Vec<String>,
+    /// What the first row holds in columns of text; empty for the others.
+    pub texts: Vec<String>,
     /// Whether the file itself names them.
     pub named: bool,
     /// Rows a second, if the file says so.
@@ -28,6 +37,36 @@ pub struct Header {
     pub full_scale: bool,
     /// What is wrong with the file, though it can be read.
     pub remarks: Vec<Remark>,
+}
+
+impl Header {
+    /// What the file says of a column: by its name, the unit below it, and the group above it.
+    pub(crate) fn meaning(&self, column: usize) -> Meaning {
+        let name = &self.columns[column];
+        let of = |texts: &[String]| texts.get(column).cloned().unwrap_or_default();
+        let unit = of(&self.units);
+        let found = match (meaning(name), unit.trim_matches(['(', ')', '[', ']'])) {
+            (found, "") => found,
+            (_, unit) => meaning(&format!("{name} ({unit})")),
+        };
+        match (found, of(&self.groups)) {
+            (Meaning::Bare(axis), group) => match in_group(&group) {
+                Some(quantity) => Meaning::Channel {
+                    quantity,
+                    axis,
+                    unit: None,
+                },
+                None => found,
+            },
+            (found, _) => found,
+        }
+    }
+
+    /// The text in the first row of a column that holds text.
+    pub(crate) fn text(&self, column: usize) -> Option<&str> {
+        let text = self.texts.get(column)?;
+        (!text.is_empty()).then_some(text)
+    }
 }
 
 /// What is wrong with a file that can be read all the same.

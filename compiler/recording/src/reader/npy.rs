@@ -115,10 +115,7 @@ pub(super) fn header(path: &Path) -> Result<Header, RecordingError> {
     let columns = open(path)?.columns;
     Ok(Header {
         columns: (0..columns).map(|column| column.to_string()).collect(),
-        named: false,
-        rate_hz: None,
-        full_scale: false,
-        remarks: Vec::new(),
+        ..Header::default()
     })
 }
 

@@ -310,10 +310,10 @@ pub(super) fn header(path: &Path) -> Result<Header, RecordingError> {
         columns: (0..wav.channels)
             .map(|channel| channel.to_string())
             .collect(),
-        named: false,
         rate_hz: Some(f64::from(wav.rate_hz)),
         full_scale: !wav.is_float,
         remarks,
+        ..Header::default()
     })
 }
 

@@ -31,7 +31,7 @@ fn of_channels(file: &'static str, channels: &[&str], words: &[&str]) -> Expecte
 type Make = fn(&mut Random, &mut Take) -> Expected;
 
 /// Name, the layouts in which it can be, and how it is made.
-pub(super) const KINDS: [(&str, &[Layout], Make); 46] = {
+pub(super) const KINDS: [(&str, &[Layout], Make); 44] = {
     use Layout::{Npy, Several, Single, Wav};
     const ANY: &[Layout] = &[Single, Several, Wav, Npy];
     const CSV: &[Layout] = &[Single, Several];
@@ -350,27 +350,6 @@ pub(super) const KINDS: [(&str, &[Layout], Make); 46] = {
             edit(r, t, |_, lines| {
                 lines.remove(0);
                 ("no header".into(), 0)
-            })
-        }),
-        ("csv-unit-row", CSV, |r, t| {
-            edit(r, t, |_, lines| {
-                let units: String = lines[1]
-                    .chars()
-                    .filter(|c| matches!(c, ',' | ';' | '\t'))
-                    .flat_map(|c| ['s', c])
-                    .collect();
-                lines.insert(1, units + "s");
-                (":2: ".into(), 0)
-            })
-        }),
-        ("csv-decimal-comma", CSV, |r, t| {
-            t.files.iter_mut().for_each(|file| file.delimiter = ';');
-            edit(r, t, |_, lines| {
-                lines
-                    .iter_mut()
-                    .skip(1)
-                    .for_each(|line| *line = line.replace('.', ","));
-                ("which is no number".into(), 0)
             })
         }),
         ("csv-duplicate-column", CSV, |r, t| {

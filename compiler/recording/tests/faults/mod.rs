@@ -164,7 +164,17 @@ fn dialect(random: &mut Random, n: usize, seconds: f64) -> Take {
                 file.style = random.pick(&[Style::Plain, Style::Suffix]);
                 file.before = format!("{statistics}#");
             }
-            4 => file.before = "# Time: 2024-04-21 15:54:46, Device: D4E9\n\n# a, b; c\n".into(),
+            4 => {
+                let before = [
+                    "# Time: 2024-04-21 15:54:46, Device: D4E9\n\n# a, b; c\n",
+                    "Device: D4E9, Rate: 1000 Hz\nMode: 3\n\n",
+                ];
+                file.before = random.pick(&before).into();
+                (file.has_units, file.decimal_comma) = (true, random.below(2) == 1);
+                if file.decimal_comma {
+                    file.delimiter = random.pick(&[';', '\t']);
+                }
+            }
             5 => file.has_label = true,
             6 => {
                 file.style = Style::Brackets;

@@ -121,6 +121,8 @@ pub(super) struct File {
     /// Text before the header, with what stands before its first name.
     pub(super) before: String,
     pub(super) has_label: bool,
+    pub(super) has_units: bool,
+    pub(super) decimal_comma: bool,
     /// A chunk of odd length before the values of a WAV.
     pub(super) has_chunk: bool,
     /// How a stamp is written.
@@ -217,6 +219,11 @@ impl File {
         names.extend(self.columns.iter().map(|column| column.name(self.style)));
         names.extend(self.has_label.then(|| "label".to_owned()));
         let mut text = format!("{}{}\n", self.before, names.join(&delimiter));
+        if self.has_units {
+            let units = names.iter().map(|_| "(s)").collect::<Vec<_>>();
+            text += &(units.join(&delimiter) + "\n");
+        }
+        let head = text.len();
         for (row, stamp) in self.stamps.iter().enumerate() {
             text += &(self.stamp)(stamp * self.clock_written);
             for column in &self.columns {
@@ -230,6 +237,10 @@ impl File {
                 let _ = write!(text, "{}stroke {}", self.delimiter, row / 500);
             }
             text.push('\n');
+        }
+        if self.decimal_comma {
+            let rows = text.split_off(head);
+            text += &rows.replace('.', ",");
         }
         text
     }
@@ -485,6 +496,8 @@ pub(super) fn clean(random: &mut Random, layout: Layout, seconds: f64) -> Take {
             delimiter,
             before: String::new(),
             has_label: false,
+            has_units: false,
+            decimal_comma: false,
             has_chunk: false,
             stamp: |stamp| format!("{stamp:.6}"),
         }
