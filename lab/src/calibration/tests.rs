@@ -100,6 +100,11 @@ fn a_table_reads_back_and_bad_ones_are_named() {
         (&measured.force_n, &measured.accel_m_s2)
     );
     assert!((again.rate_hz - 1000.0).abs() < 1e-6);
+    // A spreadsheet's dialect of the same table, with a column that nobody needs.
+    let mut lines = measured.to_csv().replace(',', ";").replace('.', ",");
+    lines = lines.replace('\n', ";x\r\n");
+    let spread = Measured::from_csv(&lines, "a.csv").expect("a table");
+    assert_eq!(spread, again);
     for (text, named) in [
         ("", "a.csv:1"),
         ("t,f,a\n", "the columns are t,f,a, but"),

@@ -9,6 +9,7 @@ mod unit;
 use asperity_host::latency::{Counts, CyclictestError, Run, Wakeups};
 use asperity_host::servo::Stage;
 use asperity_io::diagnostic::Diagnostic;
+use asperity_io::table::{TableError, TableProblem};
 use std::collections::BTreeMap;
 
 pub use unit::Unit;
@@ -69,14 +70,9 @@ pub enum ForeignError {
         /// The unit.
         unit: String,
     },
-    /// A table that is damaged.
-    #[error("line {line}: {what}")]
-    Table {
-        /// The line, from 1.
-        line: usize,
-        /// What is wrong.
-        what: String,
-    },
+    /// No table, or a damaged one.
+    #[error(transparent)]
+    Table(#[from] TableError),
     /// A cell that is no latency.
     #[error("line {line}: {cell:?} is no latency")]
     Cell {
@@ -110,7 +106,10 @@ impl Diagnostic for ForeignError {
             Self::Cyclictest(CyclictestError::NoHistogram | CyclictestError::Range) | Self::Beyond { .. } => {
                 "measure again with a histogram that holds all latencies, such as `cyclictest -h 1000 --json=FILE` (without -N)".into()
             }
-            Self::NotRead { remedy, .. } => (*remedy).into(),
+            Self::NotRead { remedy, .. }
+            | Self::Table(TableError { problem: TableProblem::Damaged { remedy, .. }, .. }) => {
+                (*remedy).into()
+            }
             Self::Column(_) => "name it: --column NAME".into(),
             Self::OtherUnit { .. } => "convert it to ns, us, ms or s, and name the unit in the head, as in `latency_us`".into(),
             Self::TooLong { .. } | Self::TooShort(_) => {
@@ -138,7 +137,9 @@ pub fn read_foreign(
             .any(|line| line.trim_start().starts_with(start))
     };
     let refused = |what, remedy| Err(ForeignError::NotRead { what, remedy });
-    let counted = if text.trim_start().starts_with('{') {
+    let counted = if text.trim().is_empty() {
+        Counted::default()
+    } else if text.trim_start().starts_with('{') {
         of_json(text)?
     } else if let Some(at) = text::spectrum_at(text) {
         text::of_spectrum(text, at, unit)?
@@ -220,6 +221,14 @@ impl Counted {
         Ok(())
     }
 
+    /// Notes that a file does not state its unit, where no option does.
+    fn note_unit(&mut self, stated: Option<Unit>) {
+        if stated.is_none() {
+            let note = "no unit is stated, so its latencies are read as µs; --unit states another";
+            self.notes.push(note.into());
+        }
+    }
+
     /// Counts latencies beyond a histogram as the largest, where they are few.
     fn beyond(&mut self, beyond: &[u64], largest_ns: Option<u64>) -> Result<(), ForeignError> {
         let sum = beyond
@@ -247,9 +256,8 @@ impl Counted {
 struct Latency(f64);
 
 impl Latency {
-    /// A number without a sign; none for anything else.
-    fn of(cell: &str, unit: Unit) -> Option<Self> {
-        let value: f64 = cell.parse().ok()?;
+    /// A latency in a unit; none for what is not finite, or below 0.
+    fn of(value: f64, unit: Unit) -> Option<Self> {
         (value.is_finite() && value >= 0.0).then_some(Self(value * unit.ns()))
     }
 

@@ -97,6 +97,26 @@ fn the_files_of_other_tools_hold_what_they_counted() {
             Unit::Us,
         ),
         (
+            &table("n;wakeup;other\n-;[ms];-", 1e-6).replace(',', ";"),
+            None,
+            Unit::Us,
+        ),
+        (
+            &table("Logger 3\nat: desk\n\nn,wakeup us,other", 1e-3),
+            None,
+            Unit::Ns,
+        ),
+        (
+            &table("n wakeup_us other", 1e-3).replace(',', "  "),
+            None,
+            Unit::Ns,
+        ),
+        (
+            &table("n,wakeup,other", 1e-6).replace(",7", " ms,7"),
+            None,
+            Unit::Ns,
+        ),
+        (
             &table("n\tdelay_ms\tother", 1e-6).replace(',', "\t"),
             Some("delay_ms"),
             Unit::Us,
@@ -135,7 +155,10 @@ fn what_holds_no_latencies_is_refused_by_line_and_column() {
         ("wakeup_ns\n-1\n", "line 2: \"-1\""),
         ("wakeup_ns\n1\ninf\n", "line 3: \"inf\""),
         ("wakeup_s\n1e300\n", "line 2: "),
-        ("wakeup_ns\n1,5\n", "line 2: 2 cells, but 1"),
+        (
+            "wakeup_ns\n1,5\n",
+            "line 2 begins with numbers that commas separate",
+        ),
         ("wakeup_us\n\"26,441\"\n", "line 2: \"26,441\""),
         ("wakeup_cycles\n1\n", "`cycles`"),
         ("wakeup [100ns]\n1\n", "`100ns`"),

@@ -47,7 +47,9 @@ pub(super) fn of_spectrum(
             continue;
         }
         let cells = cells(line);
-        let value = cells.first().and_then(|cell| Latency::of(cell, unit));
+        let value = cells
+            .first()
+            .and_then(|cell| Latency::of(cell.parse().ok()?, unit));
         let total = cells.get(2).and_then(|cell| cell.parse::<u64>().ok());
         let (Some(value), Some(total)) = (value, total) else {
             return Err(ForeignError::Line(index + 1));

@@ -152,6 +152,11 @@ impl Head {
         self.words.iter().any(is)
     }
 
+    /// Whether the rows below it are percentiles.
+    pub(super) fn is_list_of_percentiles(&self) -> bool {
+        matches!(&self.words[..], [word] if word == "percentile" || word == "quantile")
+    }
+
     /// Whether it counts how often a value occurred.
     pub(super) fn is_count(&self) -> bool {
         let names = [
