@@ -31,8 +31,9 @@ use summary::Summary;
 ///
 /// Prompts on the screen guide you through rest in the air, taps, and strokes at all speeds and
 /// forces, and a grid shows what is covered so far. The recording ends when the grid is full, after
-/// --seconds, or at Ctrl-C, and is kept in each case. `asperity import recording DIR` compiles it
-/// into a texture.
+/// --seconds, at Ctrl-C, when device or sensor disappears, or after as much as an import keeps. It is
+/// kept in each case, if device and sensor overlap for a second and the disk has room. `asperity
+/// import recording DIR` compiles it into a texture.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   asperity-lab record oak --device 'sim:?grip=firm&hand=record' --accel sim: --seconds 60
@@ -52,6 +53,11 @@ Sensors:
                              the newtons of full scale
   sim:[?seed=N]              an accelerometer on the tool of sim: or replay:
   serial: and wav: also take delay_ms=N, the known latency of the sensor
+
+Limits: serial: on Linux and macOS alone, 16 columns, 1 KiB a line, 64 damaged lines in a row; wav: of
+10 to 200,000 Hz, integers of 8 to 32 bits or floats of 32 or 64, one or three channels without
+columns=. A sensor has 5 s for its first sample and must then send one a second. An import keeps
+64 million values.
 
 docs/recording.md describes the lines and the folder. No real sensor has been tested yet.")]
 pub(crate) struct Arguments {
