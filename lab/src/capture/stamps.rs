@@ -1,5 +1,5 @@
-//! Time stamps of a sensor as they come: counters of 32 bits go on where they wrap, and a clock that
-//! starts anew is told from stamps that were damaged on the way.
+//! Time stamps of a sensor as they come: counters of 32 bits are unwrapped, and a restarted clock is
+//! distinguished from stamps that were damaged on the way.
 
 use std::collections::VecDeque;
 

@@ -222,6 +222,18 @@ fn what_holds_no_latencies_is_refused_by_line_and_column() {
 }
 
 #[test]
+fn a_count_beside_latencies_weighs_a_histogram_alone() {
+    let total = |text: &str| {
+        let read = read_foreign(text, Stage::WakeUp, Some("wakeup"), None).expect(text);
+        read.run.raw(Stage::WakeUp).len()
+    };
+    assert_eq!(total("wakeup_us,count\n10,5\n20,9\n30,1\n"), 15);
+    // A line's number, and a count of something else: the latencies come as they were measured.
+    assert_eq!(total("wakeup_us,count\n10,1\n20,2\n30,3\n"), 3);
+    assert_eq!(total("wakeup_us,count\n10,7\n30,7\n20,7\n"), 3);
+}
+
+#[test]
 fn what_a_reader_must_know_is_noted() {
     let notes = |text: &str, unit| {
         read_foreign(text, Stage::WakeUp, None, unit)
