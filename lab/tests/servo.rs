@@ -372,8 +372,48 @@ fn runs_are_laid_over_each_other() {
     );
     let errors = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(
-        output.status.code() == Some(1) && errors.contains("--column"),
+        output.status.code() == Some(1) && errors.contains("percentiles"),
         "{errors}"
+    );
+}
+
+/// Claim: a disk that is full costs the files, not the measurement.
+#[cfg(unix)]
+#[test]
+fn a_run_is_printed_though_its_files_cannot_be_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // Files of at most 2 KiB: the largest of a run and of a series do not fit.
+    let script =
+        "ulimit -f 4; exec \"$0\" jitter --seconds 1 --policy other --no-lock --deep-idle \"$@\"";
+    let limited = |arguments: &[&str]| {
+        let mut command = Command::new("sh");
+        command.args(["-c", script, env!("CARGO_BIN_EXE_asperity-lab")]);
+        command.args(arguments).current_dir(folder.path());
+        command.output().expect("sh runs")
+    };
+    for outputs in [
+        &["-o", "a"][..],
+        &["--series", "b.csv"],
+        &["-o", "a", "--series", "b.csv"],
+    ] {
+        let arguments = [outputs, &["--json", "--max-us", "0.001"]].concat();
+        let output = limited(&arguments);
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(1), "{errors}");
+        let told = json(&String::from_utf8(output.stdout).expect("text"));
+        assert!(told["ticks"].as_u64() > Some(0), "{told}");
+        for name in outputs.iter().skip(1).step_by(2) {
+            assert!(errors.contains(name), "{name}: {errors}");
+        }
+        assert!(errors.contains("--max-us"), "{errors}");
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
+    }
+    // --quiet silences a result that is in the files, and not one that is nowhere else.
+    let output = limited(&["-o", "a", "--quiet"]);
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(
+        output.status.code() == Some(1) && said.contains("worst ticks"),
+        "{said}"
     );
 }
 

@@ -56,6 +56,16 @@ pub enum CalibrationError {
         /// Where.
         freq_hz: f64,
     },
+    /// A gain, a force or a filter that no device has.
+    #[error("{file}: {what}")]
+    Implausible {
+        /// The file.
+        file: String,
+        /// What cannot be right.
+        what: String,
+        /// What to do about it.
+        remedy: String,
+    },
     /// The profile to begin with is refused.
     #[error(transparent)]
     Profile(#[from] ProfileError),
@@ -71,6 +81,7 @@ impl Diagnostic for CalibrationError {
             Self::Coherence { .. } => {
                 "fasten the accelerometer, hold the stylus by a thread or a weak spring, and raise the amplitude".into()
             }
+            Self::Implausible { remedy, .. } => format!("{remedy}; --force keeps it"),
             Self::Profile(error) => error.remedy().into(),
         }
     }

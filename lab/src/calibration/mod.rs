@@ -7,6 +7,7 @@
 
 mod chart;
 mod error;
+mod plausible;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -23,6 +24,7 @@ use asperity_sim::device::{Device, DeviceConfig};
 
 pub use chart::draw;
 pub use error::CalibrationError;
+pub use plausible::{doubts, median_gain};
 
 /// Least coherence of a measurement that makes a filter.
 pub const LEAST_COHERENCE: f64 = 0.5;

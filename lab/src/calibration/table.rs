@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use asperity_io::input::{self, InputError, Kind};
+use asperity_io::table::{Table, TableError};
 
 use super::{CalibrationError, Measured};
 
@@ -37,54 +38,51 @@ impl Measured {
     /// # Errors
     /// [`CalibrationError`] with file and line.
     pub fn from_csv(text: &str, file: &str) -> Result<Self, CalibrationError> {
-        let table = |line, what: String| CalibrationError::Table {
+        let fail = |line, what: String| CalibrationError::Table {
             file: file.into(),
             line,
             what,
         };
-        let mut reader = csv::ReaderBuilder::new()
-            .trim(csv::Trim::All)
-            .from_reader(text.as_bytes());
-        let head = reader
-            .headers()
-            .map_err(|error| table(1, error.to_string()))?;
-        if !head.iter().eq(COLUMNS) {
-            let found: Vec<&str> = head.iter().collect();
-            return Err(table(
-                1,
-                format!(
-                    "the columns are {}, but must be {}",
-                    found.join(","),
-                    COLUMNS.join(",")
-                ),
-            ));
-        }
-        let (mut times_s, mut force_n, mut accel_m_s2) = (Vec::new(), Vec::new(), Vec::new());
-        for record in reader.records() {
-            let record = record.map_err(|error| {
-                let line = error.position().map_or(0, csv::Position::line);
-                table(line, error.to_string())
+        let damaged = |error: TableError| {
+            let line = error.line.unwrap_or(1);
+            fail(line, error.problem.to_string())
+        };
+        // Units are in the names.
+        let mut table = Table::open(text.as_bytes(), &|_| false).map_err(damaged)?;
+        let names = &table.layout().columns;
+        let mut places = [0; 3];
+        for (place, column) in places.iter_mut().zip(COLUMNS) {
+            let found = names.iter().position(|name| name == column);
+            *place = found.ok_or_else(|| {
+                let (found, needed) = (names.join(","), COLUMNS.join(","));
+                let what = format!("the columns are {found}, but must be {needed}");
+                fail(table.layout().header, what)
             })?;
-            let line = record.position().map_or(0, csv::Position::line);
-            for (column, values) in [&mut times_s, &mut force_n, &mut accel_m_s2]
-                .into_iter()
-                .enumerate()
-            {
-                let cell = record.get(column).unwrap_or_default();
-                let value: Option<f64> = cell.parse().ok().filter(|value: &f64| value.is_finite());
+        }
+        let mut columns: [Vec<f64>; 3] = Default::default();
+        while let Some(row) = table.next_row().map_err(damaged)? {
+            for ((values, place), column) in columns.iter_mut().zip(places).zip(COLUMNS) {
+                let value = row.number(place).filter(|value| value.is_finite());
                 values.push(value.ok_or_else(|| {
-                    table(line, format!("{} = `{cell}` is no number", COLUMNS[column]))
+                    fail(
+                        row.line,
+                        format!("{column} = `{}` is no number", row.text(place)),
+                    )
                 })?);
             }
-            even(&times_s).map_err(|period_s| CalibrationError::Time {
+            even(&columns[0]).map_err(|period_s| CalibrationError::Time {
                 file: file.into(),
-                line,
-                found: times_s.last().copied().unwrap_or_default(),
+                line: row.line,
+                found: columns[0].last().copied().unwrap_or_default(),
                 period_s,
             })?;
         }
+        if let Some((line, _)) = table.cut() {
+            return Err(fail(line, "the row is not whole".into()));
+        }
+        let [times_s, force_n, accel_m_s2] = columns;
         let [first, second, ..] = times_s[..] else {
-            return Err(table(2, "no two rows".into()));
+            return Err(fail(2, "no two rows".into()));
         };
         let spanned_s = times_s.last().copied().unwrap_or(second) - first;
         Ok(Self {

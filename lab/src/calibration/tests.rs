@@ -100,6 +100,11 @@ fn a_table_reads_back_and_bad_ones_are_named() {
         (&measured.force_n, &measured.accel_m_s2)
     );
     assert!((again.rate_hz - 1000.0).abs() < 1e-6);
+    // A spreadsheet's dialect of the same table, with a column that nobody needs.
+    let mut lines = measured.to_csv().replace(',', ";").replace('.', ",");
+    lines = lines.replace('\n', ";x\r\n");
+    let spread = Measured::from_csv(&lines, "a.csv").expect("a table");
+    assert_eq!(spread, again);
     for (text, named) in [
         ("", "a.csv:1"),
         ("t,f,a\n", "the columns are t,f,a, but"),
@@ -148,5 +153,68 @@ fn an_accelerometer_that_fell_off_makes_no_profile() {
     assert!(
         matches!(error, CalibrationError::Coherence { .. }),
         "{error}"
+    );
+}
+
+/// Claim: a unit under another's name is found by what it does to the gain and the force, and a
+/// device within ±12 dB of its profile is none of that.
+#[test]
+fn a_wrong_unit_is_named_with_its_channel_and_factor() {
+    let device = &devices()[1];
+    let measured = simulate(device, &sweep());
+    let doubted = |force: f64, accel: f64, bias_m_s2: f64| -> Vec<String> {
+        let scaled = |values: &[f64], factor: f64, bias: f64| -> Vec<f64> {
+            values.iter().map(|value| factor * (value + bias)).collect()
+        };
+        let scaled = Measured {
+            rate_hz: measured.rate_hz,
+            force_n: scaled(&measured.force_n, force, 0.0),
+            accel_m_s2: scaled(&measured.accel_m_s2, accel, bias_m_s2),
+        };
+        let (response, design) = scaled.fit("a.csv").expect("a fit");
+        let doubts = doubts("a.csv", &scaled, &response, &design, &profile_of(device));
+        assert!(
+            doubts
+                .iter()
+                .all(|doubt| doubt.remedy().contains("--force"))
+        );
+        doubts.iter().map(ToString::to_string).collect()
+    };
+    for (force, accel) in [(1.0, 1.0), (1.0, 0.4), (1.0, 2.5), (3.0, 3.0), (0.1, 0.1)] {
+        assert_eq!(doubted(force, accel, 0.0), [""; 0], "{force} {accel}");
+    }
+    assert_eq!(doubted(1.0, 1.0, 9.81), [""; 0], "gravity along the force");
+    const G: f64 = 9.806_65;
+    for (force, accel, words) in [
+        (1.0, 1.0 / G, ["accel_m_s2 fits g ", "9.81"]),
+        (1.0, 1e3 / G, ["accel_m_s2 fits mg ", "102"]),
+        (1.0, 1e3, ["accel_m_s2 fits mm/s^2 ", "1000"]),
+        (1e3, 1.0, ["force_n fits mN ", "1000"]),
+        (1e-3, 1.0, ["force_n fits kN ", "1000"]),
+        (1e3 / G, 1.0, ["force_n fits gf ", "102"]),
+        (1.0 / G, 1.0, ["force_n fits kgf ", "9.81"]),
+        (1.0, 16.0, ["no unit", "16.0 times too high"]),
+        (1.0, 1e6, ["no unit", ""]),
+        (5.0, 5.0, ["force_n reaches 5.00 N", "1.52 times"]),
+    ] {
+        let doubts = doubted(force, accel, 0.0);
+        let first = doubts.first().unwrap_or_else(|| panic!("{words:?}"));
+        assert!(
+            words.iter().all(|word| first.contains(word)),
+            "{words:?}: {doubts:?}"
+        );
+    }
+    let raised = doubted(1.0, 1.5, 9.81);
+    assert!(raised[0].contains("1.50 times gravity"), "{raised:?}");
+
+    // What no force bears is kept by nobody unasked, even of a device that is as heavy as it says.
+    let mut heavy = device.clone();
+    heavy.mechanics.mass_kg = [0.25; 3];
+    let measured = simulate(&heavy, &sweep());
+    let (response, design) = measured.fit("a.csv").expect("a fit");
+    let doubts = doubts("a.csv", &measured, &response, &design, &profile_of(&heavy));
+    assert!(
+        doubts.len() == 1 && doubts[0].to_string().contains("coefficient"),
+        "{doubts:?}"
     );
 }

@@ -5,9 +5,18 @@
 //! touches them from below with the least sum of distances is the sensor's clock with the least
 //! delay (Moon, Skelly and Towsley, "Estimation and removal of clock skew from network delay
 //! measurements", INFOCOM 1999). It is the edge of their lower convex hull over their mean.
+//!
+//! One stamp that was damaged on the way would pull that edge to itself. So the line is laid through
+//! the longest chain of stamps that never go back: a damaged one is in it only where it lies between
+//! its neighbours, and is then wrong by less than their distance.
 
 /// How much a rate that a sensor states may be wrong, as a fraction.
 const MOST_DRIFT: f64 = 0.01;
+
+/// Stamps at either end of a recording, which have neighbours on one side alone.
+const AT_THE_ENDS: usize = 64;
+/// Steps at an end that no clock makes, in usual ones.
+const LEAP: f64 = 4.0;
 
 /// Host time = `start_s` + `scale` × own time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,6 +57,85 @@ pub fn line_under(arrivals: &[(f64, f64)], stated: Option<f64>) -> Option<ClockL
     }
 }
 
+/// Which of a sensor's own times are believed: the longest chain that never goes back, without what
+/// leaps at its ends. Their places, ascending. It takes n·log n steps.
+#[must_use]
+pub(super) fn chain(own: &[f64]) -> Vec<u32> {
+    let mut chain = longest_ascent(own);
+    let mut steps: Vec<f64> = chain
+        .windows(2)
+        .map(|pair| own[pair[1] as usize] - own[pair[0] as usize])
+        .collect();
+    // Of a coarse clock, several samples share a time.
+    let mut moves: Vec<f64> = steps.iter().copied().filter(|step| *step > 0.0).collect();
+    if moves.is_empty() || chain.len() <= 4 * AT_THE_ENDS {
+        return chain;
+    }
+    let middle = moves.len() / 2;
+    let usual = *moves.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let leaps = |step: &f64| *step > LEAP * usual;
+    let late = steps.len() - AT_THE_ENDS;
+    if let Some(at) = steps[late..].iter().position(leaps) {
+        chain.truncate(late + at + 1);
+        steps.truncate(late + at);
+    }
+    if let Some(at) = steps[..AT_THE_ENDS].iter().rposition(leaps) {
+        chain.drain(..=at);
+    }
+    chain
+}
+
+/// Places of the longest part of a list that never descends.
+fn longest_ascent(own: &[f64]) -> Vec<u32> {
+    if own.is_sorted() {
+        return (0..own.len() as u32).collect();
+    }
+    // Ends of the best chains of each length, and what comes before each place in its best chain.
+    let mut ends: Vec<u32> = Vec::new();
+    let mut before: Vec<u32> = Vec::with_capacity(own.len());
+    for (place, &time) in own.iter().enumerate() {
+        let length = ends.partition_point(|&end| own[end as usize] <= time);
+        before.push(length.checked_sub(1).map_or(u32::MAX, |last| ends[last]));
+        match ends.get_mut(length) {
+            Some(end) => *end = place as u32,
+            None => ends.push(place as u32),
+        }
+    }
+    let mut chain = Vec::with_capacity(ends.len());
+    let mut at = ends.last().copied();
+    while let Some(place) = at {
+        chain.push(place);
+        at = before
+            .get(place as usize)
+            .copied()
+            .filter(|&former| former != u32::MAX);
+    }
+    chain.reverse();
+    chain
+}
+
+/// Own time and time of arrival of the newest believed sample of each batch, s; without those at the
+/// ends of a long recording, where one that is damaged goes unnoticed. `batches` hold the place
+/// behind their last sample, and when they arrived.
+pub(super) fn arrivals(own: &[f64], chain: &[u32], batches: &[(usize, f64)]) -> Vec<(f64, f64)> {
+    let ends = if chain.len() > 4 * AT_THE_ENDS {
+        AT_THE_ENDS
+    } else {
+        0
+    };
+    let believed = &chain[ends..chain.len() - ends];
+    let mut arrivals = Vec::with_capacity(batches.len());
+    let mut from = 0;
+    for &(end, at_s) in batches {
+        let to = believed.partition_point(|&place| (place as usize) < end);
+        if to > from {
+            arrivals.push((own[believed[to - 1] as usize], at_s));
+        }
+        from = to;
+    }
+    arrivals
+}
+
 /// The edge of the lower convex hull over the mean own time.
 fn edge(arrivals: &[(f64, f64)]) -> Option<ClockLine> {
     let mut hull: Vec<(f64, f64)> = Vec::new();
@@ -81,45 +169,5 @@ fn cross(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use asperity_sim::random::unit;
-    use rand_core::SeedableRng as _;
-    use rand_xoshiro::Xoshiro256PlusPlus;
-
-    /// Arrivals of a sensor that drifts by 50 ppm and is held back for 1 ms and up to 16 ms more.
-    fn arrivals(period: f64) -> Vec<(f64, f64)> {
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(4);
-        let delayed = (0..3000).map(|n| {
-            let own = f64::from(n) * 0.02 / period;
-            let taken_s = 7.0 + own * period * (1.0 + 50e-6);
-            (own, taken_s + 0.001 + 0.016 * unit(&mut rng))
-        });
-        delayed.collect()
-    }
-
-    #[test]
-    fn drift_and_least_delay_come_back_from_delayed_arrivals() {
-        for (period, stated) in [(1.0, Some(1.0)), (2e-4, None), (2e-4, Some(2e-4))] {
-            let line = line_under(&arrivals(period), stated).expect("a line");
-            for own_s in [0.0, 30.0, 60.0] {
-                let error_s = line.host_s(own_s / period) - (7.001 + own_s * (1.0 + 50e-6));
-                assert!((0.0..1e-3).contains(&error_s), "{error_s} s at {own_s} s");
-            }
-        }
-    }
-
-    #[test]
-    fn a_short_recording_takes_the_stated_rate() {
-        let two = [(0.0, 5.0), (100.0, 5.3)];
-        let line = line_under(&two, Some(1e-3)).expect("a line");
-        assert_eq!(line.scale, 1e-3);
-        assert!(
-            (line.host_s(100.0) - 5.1).abs() < 1e-9,
-            "nothing arrives early"
-        );
-        assert_eq!(line_under(&two[..1], None), None);
-        assert_eq!(line_under(&[], Some(1.0)), None);
-        assert!(line_under(&two, None).is_some());
-    }
-}
+#[path = "clock_tests.rs"]
+mod tests;

@@ -41,7 +41,8 @@ pub struct About {
 /// What of a take makes a recording: the time that both files cover without a long gap.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
-    /// Times of the samples on the loop's clock, s.
+    /// Samples whose time stamps are believed, and their times on the loop's clock, s.
+    believed: Vec<u32>,
     times_s: Vec<f64>,
     touches: Range<usize>,
     samples: Range<usize>,
@@ -53,6 +54,8 @@ pub struct Part {
     pub rate_hz: f64,
     /// Whether what came after a gap was left out.
     pub is_cut: bool,
+    /// Samples that were left out because their time stamps were damaged.
+    pub misdated: usize,
 }
 
 impl Part {
@@ -74,7 +77,7 @@ fn unbroken(times_s: &[f64]) -> usize {
 /// What of a take is worth keeping; `None` where device and sensor have less than a second together.
 #[must_use]
 pub fn part(take: &Take) -> Option<Part> {
-    let times_s = take.times_s();
+    let (believed, times_s) = take.timed();
     let touched_s: Vec<f64> = take
         .touches()
         .iter()
@@ -101,6 +104,8 @@ pub fn part(take: &Take) -> Option<Part> {
     }
     Some(Part {
         rate_hz: 1.0 / period_s(&times_s[samples.clone()]),
+        misdated: take.samples() - believed.len(),
+        believed,
         times_s,
         touches,
         samples,
@@ -208,7 +213,7 @@ fn accel(take: &Take, part: &Part, file: &mut impl Write) -> io::Result<()> {
             }
         }
         write!(file, "{t_s:.7}")?;
-        for value in take.values(sample) {
+        for value in take.values(part.believed[sample] as usize) {
             // Nothing stands for a missing value.
             if value.is_finite() {
                 write!(file, ",{value}")?;

@@ -7,6 +7,7 @@
 use super::columns::{Column, Layout};
 use super::error::SensorError;
 use super::samples::{Counts, Samples};
+use super::stamps::Stamps;
 
 /// Longest line, bytes.
 const LONGEST: usize = 1024;
@@ -14,8 +15,6 @@ const LONGEST: usize = 1024;
 const HEADLESS: usize = 1 << 20;
 /// Lines in a row that are no samples, at most.
 const BAD_IN_A_ROW: u32 = 64;
-/// A counter of 32 bits wraps.
-const WRAP: f64 = 4_294_967_296.0;
 
 /// Makes samples of bytes.
 #[derive(Debug)]
@@ -31,9 +30,10 @@ pub struct LineDecoder {
     headless: usize,
     counts: Counts,
     row: Vec<f32>,
-    /// Last value of the clock or the count, and what its wraps add.
+    /// Values of the clock or the count.
+    stamps: Stamps,
+    /// Number of the last sample of a sensor that tells none.
     last: Option<f64>,
-    wrapped: f64,
 }
 
 enum Line {
@@ -55,8 +55,8 @@ impl LineDecoder {
             headless: 0,
             counts: Counts::default(),
             row: Vec::new(),
+            stamps: Stamps::default(),
             last: None,
-            wrapped: 0.0,
         }
     }
 
@@ -75,8 +75,8 @@ impl LineDecoder {
     /// Takes bytes in pieces of any size, and appends the samples that they complete.
     ///
     /// # Errors
-    /// [`SensorError`] for what is not the protocol, a header that changes, and a clock that goes
-    /// back.
+    /// [`SensorError`] for what is not the protocol, a header that changes, and a clock that starts
+    /// anew.
     pub fn feed(&mut self, bytes: &[u8], into: &mut Samples) -> Result<(), SensorError> {
         for part in bytes.split_inclusive(|byte| *byte == b'\n') {
             if self.line.len() + part.len() > LONGEST {
@@ -208,24 +208,17 @@ impl LineDecoder {
 
     /// A clock or a count without its wraps, in seconds or samples.
     fn unwrapped(&mut self, value: f64, column: Column) -> Result<f64, SensorError> {
-        if let Some(before) = self.last
-            && value < before
-        {
-            if before - value < 0.5 * WRAP {
-                return Err(SensorError::Restarted {
-                    name: self.name.clone(),
-                    before,
-                    now: value,
-                });
-            }
-            self.wrapped += WRAP;
-        }
-        self.last = Some(value);
+        let stamp = self.stamps.take(value);
+        let stamp = stamp.map_err(|before| SensorError::Restarted {
+            name: self.name.clone(),
+            before,
+            now: value,
+        })?;
         let unit = match column {
             Column::Clock(unit_s) => unit_s,
             _ => 1.0,
         };
-        Ok((value + self.wrapped) * unit)
+        Ok(stamp * unit)
     }
 
     fn push(&mut self, own: f64, into: &mut Samples) {
@@ -318,7 +311,9 @@ mod tests {
         let mut lines = decoder();
         let samples = fed(&mut lines, b"#t_us,a\n4294967290,1\n4,1\n").expect("a wrap");
         assert!((samples.own[1] - samples.own[0] - 10e-6).abs() < 1e-9);
-        let error = fed(&mut lines, b"3,1\n").expect_err("a restart");
+        let again: String = (0..70).map(|n| format!("{n},1\n")).collect();
+        fed(&mut lines, b"9000,1\n".repeat(64).as_slice()).expect("one time");
+        let error = fed(&mut lines, again.as_bytes()).expect_err("a restart");
         assert!(matches!(error, SensorError::Restarted { .. }), "{error}");
     }
 

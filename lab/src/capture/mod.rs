@@ -10,6 +10,7 @@
 //! | `wav` | a WAV file that another program is writing |
 //! | `simulated` | an accelerometer of known response, noise and delay on a simulated device |
 //! | `source`, `samples`, `reader` | a sensor behind one trait, read on a thread of its own |
+//! | `stamps` | time stamps as they come: wraps, and clocks that start anew |
 //! | `clock` | from a sensor's own clock to the servo loop's |
 //! | `coverage` | the grid of forces and speeds |
 //! | `exploration` | air, taps and steady strokes, as they happen |
@@ -30,6 +31,7 @@ mod sensor;
 mod serial;
 mod simulated;
 mod source;
+mod stamps;
 mod take;
 mod wav;
 

@@ -1,6 +1,6 @@
 //! Everything of a recording, in memory, while it is made.
 
-use super::clock::{ClockLine, line_under};
+use super::clock::{ClockLine, arrivals, chain, line_under};
 use super::columns::{Channel, Column};
 use super::exploration::{Exploration, Plan};
 use super::reader::{Batch, Told};
@@ -42,8 +42,8 @@ pub struct Take {
     touches: Vec<Touch>,
     told: Option<Told>,
     samples: Samples,
-    /// Own time and time of arrival of the last sample of each batch, s.
-    arrivals: Vec<(f64, f64)>,
+    /// Place behind the last sample of each batch, and when it arrived, s.
+    batches: Vec<(usize, f64)>,
     /// Newest load that the sensor told, N.
     load_n: f64,
     most: usize,
@@ -66,7 +66,7 @@ impl Take {
             touches: Vec::new(),
             told: None,
             samples: Samples::default(),
-            arrivals: Vec::new(),
+            batches: Vec::new(),
             load_n: f64::NAN,
             most: MAX_KEPT,
         }
@@ -120,11 +120,10 @@ impl Take {
                 self.load_n = unit * sum / f64::from(count);
             }
         }
-        if let Some(last) = batch.samples.own.last() {
-            self.arrivals.push((*last, 1e-9 * batch.arrived_ns as f64));
-        }
         self.samples.own.extend_from_slice(&batch.samples.own);
         self.samples.values.extend_from_slice(&batch.samples.values);
+        let arrived_s = 1e-9 * batch.arrived_ns as f64;
+        self.batches.push((self.samples.len(), arrived_s));
     }
 
     /// What was visited, and what is to be done next.
@@ -192,16 +191,31 @@ impl Take {
     /// From the sensor's own time to the loop's, once enough came.
     #[must_use]
     pub fn clock(&self) -> Option<ClockLine> {
-        line_under(&self.arrivals, self.told.as_ref()?.stated_scale)
+        self.clock_by(&chain(&self.samples.own))
     }
 
-    /// Times of all samples on the loop's clock, s.
+    fn clock_by(&self, chain: &[u32]) -> Option<ClockLine> {
+        let arrivals = arrivals(&self.samples.own, chain, &self.batches);
+        line_under(&arrivals, self.told.as_ref()?.stated_scale)
+    }
+
+    /// The samples whose time stamps are believed, and when they were taken on the loop's clock, s.
     #[must_use]
-    pub fn times_s(&self) -> Vec<f64> {
-        let Some(clock) = self.clock() else {
-            return Vec::new();
+    pub fn timed(&self) -> (Vec<u32>, Vec<f64>) {
+        let chain = chain(&self.samples.own);
+        let Some(clock) = self.clock_by(&chain) else {
+            return (Vec::new(), Vec::new());
         };
-        let own = self.samples.own.iter();
-        own.map(|own| clock.host_s(*own) - self.delay_s).collect()
+        let own = chain
+            .iter()
+            .map(|&sample| self.samples.own[sample as usize]);
+        let times_s = own.map(|own| clock.host_s(own) - self.delay_s).collect();
+        (chain, times_s)
+    }
+
+    /// Samples that came.
+    #[must_use]
+    pub fn samples(&self) -> usize {
+        self.samples.len()
     }
 }

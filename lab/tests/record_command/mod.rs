@@ -112,6 +112,34 @@ fn a_simulated_session_is_kept_and_told() {
     kept(&folder.path().join("oak"));
 }
 
+/// Claim: a disk that is full costs the recording, which is said beside what was measured.
+#[cfg(unix)]
+#[test]
+fn a_session_that_cannot_be_written_is_told_all_the_same() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let script = "ulimit -f 16; exec \"$0\" record \"$@\"";
+    let output = Command::new("sh")
+        .args(["-c", script, env!("CARGO_BIN_EXE_asperity-lab"), "oak"])
+        .args(["--device", "sim:?grip=firm&hand=record&time=stepped"])
+        .args(["--accel", "sim:", "--seconds", "6", "--json"])
+        .args(PLAIN)
+        .current_dir(folder.path())
+        .output()
+        .expect("sh runs");
+    assert_eq!(output.status.code(), Some(1), "{}", errors(&output));
+    assert!(
+        errors(&output).contains("was not kept"),
+        "{}",
+        errors(&output)
+    );
+    let told = told(&output);
+    assert_eq!(
+        (&told["folder"], &told["end"]),
+        (&Value::Null, &"time is over".into())
+    );
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
+}
+
 #[test]
 fn a_recorded_session_of_the_servo_loop_is_a_device_too() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -1,26 +1,18 @@
-//! Latencies whose distribution is known: percentiles, verdicts, and the files of other tools.
+//! Latencies whose distribution is known: percentiles and verdicts.
 
-use asperity_host::latency::{
-    Counts, DistributionError, Interval, Limits, Punctuality, Run, Unit, Verdict,
-    percentile_distribution, read_distribution,
-};
+use asperity_host::latency::{Counts, Limits, Punctuality, Run, Verdict};
 use asperity_host::servo::Stage;
 
 /// A run of a millisecond's period whose stages have these latencies, ns.
 fn run_of(stages: &[(Stage, Vec<(u64, u64)>)], missed: u64) -> Run {
-    let mut run = read_distribution("1\n", Stage::WakeUp, None, Unit::Us).expect("a latency");
-    let mut counts: [Counts; Stage::ALL.len()] = Default::default();
+    let mut run = Run::of_stage(Stage::WakeUp, Counts::default());
     for (stage, own) in stages {
-        counts[*stage as usize] = Counts(own.clone());
+        run.intervals[0].stages[*stage as usize] = Counts(own.clone());
     }
     run.facts.ticks = stages[0].1.iter().map(|(_, count)| count).sum();
     run.facts.missed = missed;
     run.facts.period_ns = 1_000_000;
-    run.intervals = vec![Interval {
-        start_s: 0.0,
-        length_s: 1.0,
-        stages: counts,
-    }];
+    run.intervals[0].length_s = 1.0;
     run
 }
 
@@ -88,73 +80,4 @@ fn verdicts_are_those_of_the_rule_and_of_the_limits() {
             );
         }
     }
-}
-
-/// Claim: the latencies of a file are those that its writer counted, whatever its format and unit.
-#[test]
-fn the_files_of_other_tools_hold_what_they_counted() {
-    let counted = vec![(12_000, 900), (40_000, 90), (700_000, 9), (2_500_000, 1)];
-    let run = run_of(&[(Stage::WakeUp, counted.clone())], 0);
-    let histogram = run.raw(Stage::WakeUp);
-    let hgrm = percentile_distribution(&histogram);
-    let cyclictest = r#"{"thread": {"0": {"cycles": 1000, "max": 2500,
-        "histogram": {"12": 900, "40": 90, "700": 9}}}}"#;
-    let column = |scale: f64| -> String {
-        let each = counted.iter().flat_map(|&(ns, count)| {
-            let cell = format!("{}\n", ns as f64 * scale);
-            std::iter::repeat_n(cell, count as usize)
-        });
-        each.collect()
-    };
-    let table = |heading: &str, scale: f64| {
-        let rows = column(scale);
-        let rows = rows.lines().enumerate();
-        let rows: String = rows.map(|(n, cell)| format!("{n},{cell},7\n")).collect();
-        format!("{heading}\n{rows}")
-    };
-    for (text, column, unit) in [
-        (hgrm.as_str(), None, Unit::Us),
-        (cyclictest, None, Unit::Ns),
-        (&column(1.0), None, Unit::Ns),
-        (&column(1e-3), None, Unit::Us),
-        (&column(1e-6), None, Unit::Ms),
-        (&format!("latency (µs)\n{}", column(1e-3)), None, Unit::Ms),
-        (&table("period,wakeup_ns,read_ns", 1.0), None, Unit::Us),
-        (&table("n,delay_ms,other", 1e-6), Some("delay_ms"), Unit::Us),
-        (&table("n,delay,other", 1e-3), Some("delay"), Unit::Us),
-    ] {
-        let read = read_distribution(text, Stage::WakeUp, column, unit);
-        let read = read.unwrap_or_else(|error| panic!("{error}: {:.60}", text));
-        let own = read.raw(Stage::WakeUp);
-        assert_eq!(own.len(), 1000);
-        for quantile in [0.5, 0.9, 0.99, 0.999, 1.0] {
-            let [a, b] = [&own, &histogram].map(|h| h.value_at_quantile(quantile) as f64);
-            assert!(
-                (a / b - 1.0).abs() < 2e-3,
-                "{quantile}: {a} {b} in {:.40}",
-                text
-            );
-        }
-    }
-}
-
-#[test]
-fn what_holds_no_latencies_is_refused_by_line_and_column() {
-    let refused = |text: &str| read_distribution(text, Stage::WakeUp, None, Unit::Us);
-    for (text, words) in [
-        ("", "no latencies"),
-        ("wakeup_ns\n", "no latencies"),
-        ("{\"ticks\": 3}", "cyclictest --json"),
-        ("a,b\n1,2\n", "not clear among: a, b"),
-        ("wakeup_ns\n12\nlate\n", "line 3: \"late\""),
-        ("wakeup_ns\n-1\n", "line 2: \"-1\""),
-        (
-            "Value Percentile TotalCount\n\n1.0 0.5 10\n2.0 1.0 9\n",
-            "line 4",
-        ),
-    ] {
-        let error = refused(text).expect_err(text);
-        assert!(error.to_string().contains(words), "{text:?}: {error}");
-    }
-    assert!(matches!(refused(""), Err(DistributionError::Empty)));
 }

@@ -208,3 +208,62 @@ fn a_histogram_that_states_other_lengths_than_its_own_is_damaged() {
         }
     }
 }
+
+/// A histogram in the encoding V2 with these digits and bytes of counts.
+fn encoded(digits: u32, counts: &[u8]) -> String {
+    let mut plain = PLAIN.to_be_bytes().to_vec();
+    plain.extend((counts.len() as u32).to_be_bytes());
+    plain.extend(0_u32.to_be_bytes());
+    plain.extend(digits.to_be_bytes());
+    plain.extend(1_u64.to_be_bytes());
+    plain.extend((i64::MAX as u64).to_be_bytes());
+    plain.extend(1.0_f64.to_be_bytes());
+    plain.extend(counts);
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::best());
+    encoder.write_all(&plain).expect("memory");
+    let body = encoder.finish().expect("memory");
+    let heads = [COMPRESSED.to_be_bytes(), (body.len() as u32).to_be_bytes()].concat();
+    base64::engine::general_purpose::STANDARD.encode([heads, body].concat())
+}
+
+/// A log of `intervals` with this histogram in each.
+fn log_of(histogram: &str, intervals: usize) -> String {
+    let log = String::from_utf8(write_log(&run()).expect("a log")).expect("text");
+    let comments = log.lines().filter(|line| line.starts_with('#'));
+    let mut text: String = comments.map(|line| format!("{line}\n")).collect();
+    for n in 0..intervals {
+        text += &format!("Tag=wakeup,{n}.000,1.000,1.000,{histogram}\n");
+    }
+    text
+}
+
+/// Claim: what a few bytes state costs no more than a file of its size may.
+#[test]
+fn a_small_log_of_huge_histograms_is_refused_at_once() {
+    // One count behind 5,000,000 empty cells of five digits, and the most that three digits hold.
+    let far = encoded(5, &[0xff, 0xac, 0xe2, 0x04, 0x02]);
+    let refused = read_log(log_of(&far, 150).as_bytes());
+    assert!(
+        matches!(refused, Err(LogError::Histogram(0))),
+        "{refused:?}"
+    );
+    let beyond = encoded(3, &[0xff, 0xac, 0xe2, 0x04, 0x02]);
+    let refused = read_log(log_of(&beyond, 1).as_bytes());
+    assert!(
+        matches!(refused, Err(LogError::Histogram(0))),
+        "{refused:?}"
+    );
+    // Dense ones unpack to a hundred times their bytes; a few may, and not hundreds.
+    let dense = encoded(3, &[2; 50_000]);
+    let few = read_log(log_of(&dense, 20).as_bytes()).expect("a run");
+    assert_eq!(few.raw(Stage::WakeUp).len(), 20 * 50_000);
+    let refused = read_log(log_of(&dense, 2000).as_bytes());
+    assert!(matches!(refused, Err(LogError::Unpacked(_))), "{refused:?}");
+    // More ticks in a cell than any run has.
+    let many = encoded(3, &[0xfe, 0xff, 0xff, 0xff, 0xff, 0xff, 0x7f]);
+    let refused = read_log(log_of(&many, 1).as_bytes());
+    assert!(
+        matches!(refused, Err(LogError::Histogram(0))),
+        "{refused:?}"
+    );
+}

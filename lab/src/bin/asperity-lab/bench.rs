@@ -132,18 +132,19 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         bar.finish_and_clear();
         all.push((import_accuracy::summary(&rows), rows));
     }
-    if let Some(path) = &arguments.cells {
-        std::fs::write(path, cells_csv(&all)).map_err(|error| {
+    let written = match &arguments.cells {
+        Some(path) => std::fs::write(path, cells_csv(&all)).map_err(|error| {
             Plain::failure(
                 format!("{}: {error}", path.display()),
                 "give a path that you can write to",
             )
-        })?;
-    }
+        }),
+        None => Ok(()),
+    };
     let text = figures_text(&all);
     // Figures of single materials of others stay with their owner.
     let figures: Vec<&Figures> = all.iter().map(|(figures, _)| figures).collect();
-    print(&figures, text, arguments.json, console)
+    crate::error::all([written, print(&figures, text, arguments.json, console)])
 }
 
 fn print(

@@ -30,6 +30,17 @@ impl Plain {
     }
 }
 
+/// Every failure of what was done in turn, each whatever became of the others: a result is printed
+/// though its files cannot be written.
+pub(crate) fn all(done: impl IntoIterator<Item = Result<(), Failures>>) -> Result<(), Failures> {
+    let failures: Failures = done.into_iter().filter_map(Result::err).flatten().collect();
+    if failures.is_empty() {
+        Ok(())
+    } else {
+        Err(failures)
+    }
+}
+
 impl Diagnostic for Plain {
     fn remedy(&self) -> String {
         self.remedy.clone()

@@ -13,7 +13,7 @@ use asperity_io::{
     output,
 };
 
-use crate::error::Plain;
+use crate::error::{Plain, all};
 
 /// Compare prompts with the measured materials that they name
 ///
@@ -88,7 +88,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         ));
     }
     let tables = markdown::tables(&comparison);
-    if let Some(folder) = &arguments.out {
+    let write = |folder: &PathBuf| {
         let mut files = vec![("tables.md".to_owned(), tables.clone().into_bytes())];
         if let Some(trends) = &comparison.trends {
             files.push((
@@ -106,14 +106,15 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
             .collect();
         let mut inputs = hatt::files(&arguments.hatt).map_err(one)?;
         inputs.extend(setup.files());
-        output::write_folder_beside(&inputs, folder, &files).map_err(one)?;
-    }
+        output::write_folder_beside(&inputs, folder, &files).map_err(one)
+    };
+    let written = arguments.out.as_ref().map_or(Ok(()), write);
     let printed = if arguments.json {
         let text = serde_json::to_string_pretty(&comparison)
             .map_err(|error| Plain::failure(error, BUG))?;
         console.json(&text)
     } else {
-        console.result_of(arguments.out.is_some(), &tables)
+        console.result_of(arguments.out.is_some() && written.is_ok(), &tables)
     };
-    printed.map_err(one)
+    all([written, printed.map_err(one)])
 }

@@ -12,7 +12,7 @@ use asperity_io::diagnostic::{Failures, one};
 use asperity_io::input::{self, InputError, Kind};
 use asperity_io::output;
 
-use crate::error::Plain;
+use crate::error::{Plain, all};
 
 /// Measure the trade-off between speed and accuracy over many materials
 ///
@@ -79,9 +79,12 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     let bar = console.bar(steps(textures.len()), "measuring");
     let results = measure(&textures, &options, || bar.inc(1));
     bar.finish_and_clear();
-    if let Some(folder) = &arguments.out {
-        write(folder, &inputs(arguments)?, &results, &cortex_m)?;
-    }
+    let written = match &arguments.out {
+        Some(folder) => {
+            inputs(arguments).and_then(|inputs| write(folder, &inputs, &results, &cortex_m))
+        }
+        None => Ok(()),
+    };
     if let Some(reason) = &results.not_counted {
         console.warn(&format!(
             "instructions were not counted: {reason}; install valgrind"
@@ -90,9 +93,10 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     let printed = if arguments.json {
         console.json(&json::encode(&results))
     } else {
-        console.result_of(arguments.out.is_some(), &report(&results))
+        let wrote = arguments.out.is_some() && written.is_ok();
+        console.result_of(wrote, &report(&results))
     };
-    printed.map_err(one)
+    all([written, printed.map_err(one)])
 }
 
 /// The files that are read, which no table or chart may replace.

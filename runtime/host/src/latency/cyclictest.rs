@@ -36,6 +36,12 @@ pub enum CyclictestError {
     /// Its file is not what version 2 of rt-tests writes.
     #[error("not what `cyclictest --json` writes: {0}")]
     Json(#[from] serde_json::Error),
+    /// It ran without a histogram.
+    #[error("cyclictest counted no histogram, so that only its extremes and its mean are known")]
+    NoHistogram,
+    /// Numbers that no measurement gives.
+    #[error("latencies or counts of cyclictest are too large")]
+    Range,
 }
 
 /// cyclictest at work.
@@ -51,9 +57,9 @@ pub struct Wakeups {
     pub version: String,
     /// Its command line.
     pub command: String,
-    /// Latencies in ns, cut to µs as cyclictest counts them.
+    /// Latencies in ns, cut to µs as cyclictest counts them without `-N`.
     pub counts: Counts,
-    /// Latencies of more than a second, which are in no count.
+    /// Latencies beyond its histogram, which are in no count.
     pub beyond: u64,
     /// The largest, ns.
     pub max_ns: u64,
@@ -144,6 +150,9 @@ struct File {
     command: String,
     #[serde(rename = "rt_test_version:", alias = "rt_test_version", default)]
     version: String,
+    /// 1 where latencies are ns (`-N`), 0 where they are µs.
+    #[serde(default)]
+    resolution_in_ns: u64,
     thread: BTreeMap<String, Thread>,
 }
 
@@ -158,19 +167,28 @@ impl Wakeups {
     /// Reads what `cyclictest --json` of rt-tests 2 writes.
     ///
     /// # Errors
-    /// [`CyclictestError::Json`].
+    /// [`CyclictestError::Json`], [`CyclictestError::NoHistogram`] and [`CyclictestError::Range`].
     pub fn parse(bytes: &[u8]) -> Result<Self, CyclictestError> {
         let file: File = serde_json::from_slice(bytes)?;
+        let unit_ns = match file.resolution_in_ns {
+            0 => 1000,
+            stated => stated,
+        };
+        let in_ns = |latency: u64| latency.checked_mul(unit_ns).ok_or(CyclictestError::Range);
+        let sum = |a: u64, b: u64| a.checked_add(b).ok_or(CyclictestError::Range);
         let mut counts: BTreeMap<u64, u64> = BTreeMap::new();
-        let (mut cycles, mut max_ns) = (0, 0);
+        let (mut cycles, mut counted, mut max_ns) = (0, 0, 0);
         for thread in file.thread.values() {
-            for (us, count) in &thread.histogram {
-                *counts.entry(1000 * us).or_default() += count;
+            for (latency, count) in &thread.histogram {
+                counted = sum(counted, *count)?;
+                *counts.entry(in_ns(*latency)?).or_default() += count;
             }
-            cycles += thread.cycles;
-            max_ns = max_ns.max(1000 * thread.max);
+            cycles = sum(cycles, thread.cycles)?;
+            max_ns = max_ns.max(in_ns(thread.max)?);
         }
-        let counted: u64 = counts.values().sum();
+        if counted == 0 && cycles > 0 {
+            return Err(CyclictestError::NoHistogram);
+        }
         Ok(Self {
             version: file.version,
             command: file.command,

@@ -2,28 +2,27 @@
 //! of every stage, whose tag is the stage's name. A comment holds the [`Facts`].
 
 use super::{
+    encoded::{counts, inflated},
     facts::Facts,
-    run::{Counts, Interval, Run},
+    run::{Interval, Run},
 };
 use crate::servo::Stage;
 use base64::Engine as _;
-use flate2::read::ZlibDecoder;
 use hdrhistogram::serialization::{
-    Deserializer, V2DeflateSerializer,
+    V2DeflateSerializer,
     interval_log::{IntervalLogIterator, IntervalLogWriterBuilder, LogEntry, Tag},
 };
-use std::{
-    io::Read as _,
-    time::{Duration, UNIX_EPOCH},
-};
+use std::time::{Duration, UNIX_EPOCH};
 use thiserror::Error;
 
 /// What begins the comment with the facts.
 const FACTS: &str = "asperity-lab jitter ";
 /// Largest values are written in ms.
 const MAX_DIVISOR: f64 = 1e6;
-/// More bytes than any histogram of ours takes before it is compressed.
-const MOST_BYTES: u64 = 1 << 24;
+/// Bytes to which the histograms of a log unpack, at most: so many for each byte of the file, and
+/// some more. Those of a measurement unpack to about as many as they take.
+const UNPACKED: usize = 8;
+const UNPACKED_MORE: usize = 1 << 22;
 /// More intervals than any run of a day has.
 const MOST_INTERVALS: usize = 1_000_000;
 
@@ -54,6 +53,9 @@ pub enum LogError {
         /// Its tag.
         tag: String,
     },
+    /// The histograms unpack to far more than the file.
+    #[error("interval {0}: its histograms unpack to more than {UNPACKED} times the file")]
+    Unpacked(usize),
     /// Too many intervals.
     #[error("more than {MOST_INTERVALS} intervals")]
     TooMany,
@@ -90,28 +92,21 @@ pub fn write_log(run: &Run) -> Result<Vec<u8>, LogError> {
     Ok(bytes)
 }
 
-/// The histogram of a compressed one, whose lengths are true: the deserialiser reserves what they
-/// state before it reads. `None` for one that is damaged or takes more than [`MOST_BYTES`].
-fn inflated(compressed: &[u8]) -> Option<Vec<u8>> {
-    // Two heads, each a cookie and a length; the inner one goes on for 32 bytes.
-    let states = |head: &[u8], length: usize| {
-        let stated = head.get(4..8)?.try_into().ok()?;
-        (u32::from_be_bytes(stated) as usize == length).then_some(())
-    };
-    let body = compressed.get(8..)?;
-    states(compressed, body.len())?;
-    let mut histogram = Vec::new();
-    ZlibDecoder::new(body)
-        .take(MOST_BYTES)
-        .read_to_end(&mut histogram)
-        .ok()?;
-    states(&histogram, histogram.len().checked_sub(40)?)?;
-    Some(histogram)
-}
-
 /// A duration of so many seconds; 0 for what is none.
 fn seconds(s: f64) -> Duration {
     Duration::try_from_secs_f64(s).unwrap_or_default()
+}
+
+/// The comment with the facts.
+fn facts_of(bytes: &[u8]) -> Option<&[u8]> {
+    let mut lines = bytes.split(|&byte| byte == b'\n');
+    lines.find_map(|line| line.strip_prefix(b"#")?.strip_prefix(FACTS.as_bytes()))
+}
+
+/// Whether bytes are a log that [`write_log`] wrote, whole or damaged.
+#[must_use]
+pub fn is_log(bytes: &[u8]) -> bool {
+    facts_of(bytes).is_some()
 }
 
 /// The run of a log.
@@ -119,12 +114,9 @@ fn seconds(s: f64) -> Duration {
 /// # Errors
 /// [`LogError`].
 pub fn read_log(bytes: &[u8]) -> Result<Run, LogError> {
-    let facts = bytes
-        .split(|&byte| byte == b'\n')
-        .find_map(|line| line.strip_prefix(b"#")?.strip_prefix(FACTS.as_bytes()))
-        .ok_or(LogError::NoFacts)?;
+    let facts = facts_of(bytes).ok_or(LogError::NoFacts)?;
     let facts: Facts = serde_json::from_slice(facts)?;
-    let mut deserializer = Deserializer::new();
+    let mut room = UNPACKED_MORE.saturating_add(bytes.len().saturating_mul(UNPACKED));
     let mut intervals: Vec<Interval> = Vec::new();
     let entries = IntervalLogIterator::new(bytes).filter(|entry| {
         // Start and base time were read with the facts.
@@ -139,12 +131,14 @@ pub fn read_log(bytes: &[u8]) -> Result<Run, LogError> {
             index,
             tag: tag.into(),
         })?;
-        let histogram: hdrhistogram::Histogram<u64> = base64::engine::general_purpose::STANDARD
+        let histogram = base64::engine::general_purpose::STANDARD
             .decode(entry.encoded_histogram())
             .ok()
             .and_then(|bytes| inflated(&bytes))
-            .and_then(|bytes| deserializer.deserialize(&mut bytes.as_slice()).ok())
             .ok_or(LogError::Histogram(index))?;
+        let left = room.checked_sub(histogram.len());
+        room = left.ok_or(LogError::Unpacked(index))?;
+        let counts = counts(&histogram).ok_or(LogError::Histogram(index))?;
         let start_s = entry.start_timestamp().as_secs_f64();
         let length_s = entry.duration().as_secs_f64();
         let same = |last: &&mut Interval| last.start_s == start_s;
@@ -159,7 +153,7 @@ pub fn read_log(bytes: &[u8]) -> Result<Run, LogError> {
             });
         }
         if let Some(interval) = intervals.last_mut() {
-            interval.stages[stage as usize] = Counts::of(&histogram);
+            interval.stages[stage as usize] = counts;
         }
     }
     Ok(Run { facts, intervals })

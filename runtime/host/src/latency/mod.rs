@@ -11,19 +11,18 @@
 //! | `verdict` | whether a run was punctual, and within stated limits |
 //! | `series` | every tick as a line of CSV |
 //! | `worst` | the worst ticks |
-//! | `hgrm`, `hlog` | the files of HdrHistogram's own tools |
+//! | `hgrm`, `hlog`, `encoded` | the files of HdrHistogram's own tools |
 //! | `compare` | the shift of each percentile, with a bootstrap confidence |
 //! | `inject` | a controlled delay, to see whether it is found |
 //! | `load` | bounded work for the machine meanwhile |
 //! | `conditions` | under which conditions a run was made |
 //! | `cyclictest` | the same by another program |
-//! | `distribution` | latencies that other tools counted |
 
 mod collect;
 mod compare;
 mod conditions;
 mod cyclictest;
-mod distribution;
+mod encoded;
 mod facts;
 mod hgrm;
 mod hlog;
@@ -39,10 +38,9 @@ pub use collect::Collector;
 pub use compare::{Shift, compare};
 pub use conditions::{Conditions, Machine};
 pub use cyclictest::{Cyclictest, CyclictestError, Wakeups};
-pub use distribution::{DistributionError, Unit, read_distribution};
 pub use facts::Facts;
 pub use hgrm::percentile_distribution;
-pub use hlog::{LogError, read_log, write_log};
+pub use hlog::{LogError, is_log, read_log, write_log};
 pub use inject::{Delayed, Injection, InjectionError};
 pub use load::{Load, Loading};
 pub use percentiles::{Percentiles, QUANTILES, carries};

@@ -5,7 +5,7 @@ use crate::servo::Stage;
 use hdrhistogram::Histogram;
 
 /// Significant digits of every histogram.
-const DIGITS: u8 = 3;
+pub(super) const DIGITS: u8 = 3;
 
 /// Values with their counts, ascending.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -82,6 +82,32 @@ pub struct Run {
 }
 
 impl Run {
+    /// A run of one stage and one interval, of which nothing else is known.
+    #[must_use]
+    pub fn of_stage(stage: Stage, counts: Counts) -> Self {
+        let ticks = counts.0.iter().map(|&(_, count)| count).sum();
+        let mut stages: [Counts; Stage::ALL.len()] = Default::default();
+        stages[stage as usize] = counts;
+        Self {
+            facts: Facts {
+                ticks,
+                missed: 0,
+                lost: 0,
+                period_ns: 0,
+                longest_gap_ns: 0,
+                omits: false,
+                began_s: 0.0,
+                conditions: Vec::new(),
+                worst: Vec::new(),
+            },
+            intervals: vec![Interval {
+                start_s: 0.0,
+                length_s: 0.0,
+                stages,
+            }],
+        }
+    }
+
     /// The histogram of a stage as it was recorded, ns.
     #[must_use]
     pub fn raw(&self, stage: Stage) -> Histogram<u64> {
@@ -131,9 +157,9 @@ impl Run {
             .sort_by(|a, b| a.start_s.total_cmp(&b.start_s));
         let facts = &mut self.facts;
         facts.began_s = began_s;
-        facts.ticks += other.facts.ticks;
-        facts.missed += other.facts.missed;
-        facts.lost += other.facts.lost;
+        facts.ticks = facts.ticks.saturating_add(other.facts.ticks);
+        facts.missed = facts.missed.saturating_add(other.facts.missed);
+        facts.lost = facts.lost.saturating_add(other.facts.lost);
         facts.omits |= other.facts.omits;
         facts.longest_gap_ns = facts.longest_gap_ns.max(other.facts.longest_gap_ns);
         for conditions in other.facts.conditions {

@@ -3,10 +3,13 @@
 use std::path::PathBuf;
 
 use asperity_console::Console;
+use asperity_host::profile::Profile;
 use asperity_host::profile::sweep::Sweep;
 use asperity_io::diagnostic::{Failures, one};
 use asperity_io::output::{Outputs, display};
-use asperity_lab::calibration::{Measured, base, draw, simulate};
+use asperity_lab::calibration::{
+    CalibrationError, Measured, base, doubts, draw, median_gain, simulate,
+};
 use asperity_sim::device::DeviceConfig;
 
 use crate::error::Plain;
@@ -47,6 +50,9 @@ pub(crate) struct Arguments {
     /// Write the profile, including the filter; `-` is standard output
     #[arg(short, long, value_name = "OUT.toml")]
     output: Option<PathBuf>,
+    /// Keep a calibration whose gain, unit, force or filter is implausible
+    #[arg(long)]
+    force: bool,
 }
 
 fn amplitude(text: &str) -> Result<f64, String> {
@@ -89,8 +95,17 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         }
     };
     let (response, design) = measured.fit(&origin).map_err(one)?;
+    let doubts = doubts(&origin, &measured, &response, &design, &profile);
+    if !arguments.force && !doubts.is_empty() {
+        return Err(doubts.into_iter().flat_map(one).collect());
+    }
+    for doubt in doubts {
+        console.warn(&doubt.to_string());
+    }
+    let gain_m_s2_n = median_gain(&response);
     let mut report = format!(
         "measured   {origin}, {} periods at {:.0} Hz\n\
+         gain       {gain_m_s2_n:.1} m/s² a newton, as a mass of {:.0} g\n\
          resonance  {:.0} Hz, {:+.1} dB over the median gain\n\
          delay      {:.2} ms\n\
          coherence  {:.2} at worst, 40 to 400 Hz\n\
@@ -98,6 +113,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
          filter     {} coefficients, minimum phase\n",
         measured.force_n.len(),
         measured.rate_hz,
+        1e3 / gain_m_s2_n,
         response.resonance_hz,
         response.resonance_db,
         1e3 * response.delay_s,
@@ -125,9 +141,10 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
             profile.unconfirmed.push(field);
         }
         profile.compensation = Some(design.filter);
-        outputs
-            .fill(file, profile.to_toml().as_bytes())
-            .map_err(one)?;
+        let text = profile.to_toml();
+        // What --force keeps must be read back all the same.
+        Profile::from_toml(&text, &origin).map_err(|error| one(CalibrationError::from(error)))?;
+        outputs.fill(file, text.as_bytes()).map_err(one)?;
     }
     outputs.commit().map_err(one)?;
     let wrote = arguments.output.is_some() || arguments.table.is_some() || arguments.plot.is_some();

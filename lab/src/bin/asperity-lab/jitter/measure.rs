@@ -18,9 +18,9 @@ use asperity_io::output::{self, AtomicFile, Outputs};
 use asperity_io::{realtime, system};
 use asperity_lab::jitter::{draw, encode, percentiles, report};
 use asperity_lab::servo_session::{Setup, run as run_loop};
-use serde_json::json;
+use serde_json::{Value, json};
 
-use crate::error::Plain;
+use crate::error::{Plain, all};
 use crate::loop_options::{refusals, stop_on_interrupt};
 
 /// Time between two looks at the queues.
@@ -124,9 +124,7 @@ pub(super) fn measure(arguments: &Arguments, console: Console) -> Result<(), Fai
         Some((error, id)) => Err(one(outputs.file(id).error("write", error))),
         None => outputs.commit().map_err(one),
     };
-    // The run is reported even where its series was lost.
-    tell(arguments, &run, wakeups.as_ref(), console)?;
-    series
+    all([tell(arguments, &run, wakeups.as_ref(), console), series])
 }
 
 /// The interval log of a run, in its folder.
@@ -230,53 +228,60 @@ fn tell(
     let settings = realtime::settings(arguments.options.cpu);
     let mut json = encode(run, &verdict, wakeups);
     json["settings"] = json!(settings);
-    if let Some(folder) = &arguments.out {
-        let mut files = vec![
-            ("run.json".to_owned(), format!("{json:#}\n").into_bytes()),
-            (
-                "percentiles.csv".to_owned(),
-                percentiles(run, wakeups).into_bytes(),
-            ),
-            ("jitter.png".to_owned(), draw(run, wakeups).map_err(bug)?),
-            (LOG_OF_A_RUN.to_owned(), write_log(run).map_err(bug)?),
-        ];
-        for stage in Stage::ALL {
-            let kinds = [("", run.raw(stage)), ("-corrected", run.corrected(stage))];
-            for (kind, histogram) in kinds {
-                let name = format!("{}{kind}.hgrm", stage.name());
-                let text = percentile_distribution(&histogram);
-                files.push((name, text.into_bytes()));
-            }
-        }
-        let named: Vec<(String, &[u8])> = files
-            .iter()
-            .map(|(name, bytes)| (name.clone(), bytes.as_slice()))
-            .collect();
-        output::write_folder_beside(arguments.options.file.as_slice(), folder, &named)
-            .map_err(one)?;
-    }
-    if arguments.json {
-        console.json(&json).map_err(one)?;
+    let written = match &arguments.out {
+        Some(folder) => write(arguments, folder, run, wakeups, &json),
+        None => Ok(()),
+    };
+    let printed = if arguments.json {
+        console.json(&json)
     } else {
-        let wrote = arguments.out.is_some();
-        console
-            .result_of(
-                wrote,
-                &format!(
-                    "{}\nthis machine, and how to change it\n{}",
-                    report(run, &verdict, wakeups),
-                    realtime::table(&settings)
-                ),
-            )
-            .map_err(one)?;
+        let wrote = arguments.out.is_some() && written.is_ok();
+        let report = report(run, &verdict, wakeups);
+        let settings = realtime::table(&settings);
+        let text = format!("{report}\nthis machine, and how to change it\n{settings}");
+        console.result_of(wrote, &text)
+    };
+    let within = if verdict.exceeded.is_empty() {
+        Ok(())
+    } else {
+        Err(Plain::failure(
+            verdict.exceeded.join("; "),
+            "quiet the machine (docs/servo.md), or allow more",
+        ))
+    };
+    all([written, printed.map_err(one), within])
+}
+
+/// Writes the folder of a run.
+fn write(
+    arguments: &Arguments,
+    folder: &Path,
+    run: &Run,
+    wakeups: Option<&Wakeups>,
+    json: &Value,
+) -> Result<(), Failures> {
+    let mut files = vec![
+        ("run.json".to_owned(), format!("{json:#}\n").into_bytes()),
+        (
+            "percentiles.csv".to_owned(),
+            percentiles(run, wakeups).into_bytes(),
+        ),
+        ("jitter.png".to_owned(), draw(run, wakeups).map_err(bug)?),
+        (LOG_OF_A_RUN.to_owned(), write_log(run).map_err(bug)?),
+    ];
+    for stage in Stage::ALL {
+        let kinds = [("", run.raw(stage)), ("-corrected", run.corrected(stage))];
+        for (kind, histogram) in kinds {
+            let name = format!("{}{kind}.hgrm", stage.name());
+            let text = percentile_distribution(&histogram);
+            files.push((name, text.into_bytes()));
+        }
     }
-    if verdict.exceeded.is_empty() {
-        return Ok(());
-    }
-    Err(Plain::failure(
-        verdict.exceeded.join("; "),
-        "quiet the machine (docs/servo.md), or allow more",
-    ))
+    let named: Vec<(String, &[u8])> = files
+        .iter()
+        .map(|(name, bytes)| (name.clone(), bytes.as_slice()))
+        .collect();
+    output::write_folder_beside(arguments.options.file.as_slice(), folder, &named).map_err(one)
 }
 
 fn bug(error: impl std::fmt::Display) -> Failures {

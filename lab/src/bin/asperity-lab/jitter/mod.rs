@@ -7,16 +7,18 @@ use std::path::PathBuf;
 
 use asperity_console::Console;
 use asperity_host::device::Uri;
-use asperity_host::latency::{Injection, Load, Unit};
+use asperity_host::latency::{Injection, Load};
 use asperity_host::servo::Stage;
 use asperity_io::diagnostic::Failures;
+use asperity_lab::jitter::Unit;
 
 use crate::loop_options::{self, LoopOptions};
 
 /// What `compare` and `overlay` read.
 const FILES: &str =
     "A run is a folder that `asperity-lab jitter -o` wrote or the run.hlog in it, a percentile
-distribution (.hgrm), what `cyclictest --json` writes, or CSV with a latency in each line.";
+distribution (.hgrm, or the report of wrk2), what `cyclictest -h 1000` writes with or without --json, the table of
+`rtla timerlat hist`, or CSV with a latency in each line.";
 
 /// Measure the latency and jitter of a servo loop
 ///
@@ -130,9 +132,9 @@ struct Foreign {
     /// Column of CSV files [default: that of the stage, or the only one]
     #[arg(long, value_name = "NAME")]
     column: Option<String>,
-    /// Unit of files that do not state theirs: ns, us or ms
-    #[arg(long, default_value = "us")]
-    unit: Unit,
+    /// Unit of files that do not state theirs: ns, us, ms or s [default: us]
+    #[arg(long)]
+    unit: Option<Unit>,
 }
 
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]

@@ -3,13 +3,15 @@
 use super::{Foreign, measure::LOG_OF_A_RUN};
 use crate::error::Plain;
 use asperity_console::Console;
-use asperity_host::latency::{self, Run, read_distribution, read_log, write_log};
+use asperity_host::latency::{self, Run, is_log, read_log, write_log};
 use asperity_io::{
-    diagnostic::{Failures, one},
+    diagnostic::{Diagnostic as _, Failures, one},
     input::{self, InputError, Kind},
     output::{Outputs, display},
 };
-use asperity_lab::jitter::{draw_overlay, encode_runs, encode_shifts, shifts, side_by_side};
+use asperity_lab::jitter::{
+    draw_overlay, encode_runs, encode_shifts, read_foreign, shifts, side_by_side,
+};
 use std::path::{Path, PathBuf};
 
 /// The file of a run: its interval log, where the folder of `jitter --output` is given.
@@ -29,27 +31,23 @@ fn bytes_of(path: &Path) -> Result<Vec<u8>, Failures> {
 }
 
 /// Reads an interval log of ours, or latencies that another tool counted.
-fn read(path: &Path, foreign: &Foreign) -> Result<Run, Failures> {
+fn read(path: &Path, foreign: &Foreign, console: Console) -> Result<Run, Failures> {
     let path = &file_of(path);
     let bytes = bytes_of(path)?;
-    if bytes.starts_with(b"#") {
+    if is_log(&bytes) {
         return log_of(path, &bytes);
     }
-    let cannot = |error: &dyn std::fmt::Display, remedy: &str| {
-        Plain::failure(format!("{}: {error}", path.display()), remedy)
-    };
     let text = input::text(&bytes).map_err(|problem| {
         let file = path.to_owned();
         one(InputError { file, problem })
     })?;
     let column = foreign.column.as_deref();
-    read_distribution(text, foreign.stage.into(), column, foreign.unit).map_err(|error| {
-        let remedy = match error {
-            latency::DistributionError::Column(_) => "name it: --column NAME",
-            _ => "give a run.hlog, a .hgrm file, what `cyclictest --json` writes, or CSV",
-        };
-        cannot(&error, remedy)
-    })
+    let read = read_foreign(text, foreign.stage.into(), column, foreign.unit)
+        .map_err(|error| Plain::failure(format!("{}: {error}", path.display()), error.remedy()))?;
+    for note in &read.notes {
+        console.warn(&format!("{}: {note}", path.display()));
+    }
+    Ok(read.run)
 }
 
 fn log_of(path: &Path, bytes: &[u8]) -> Result<Run, Failures> {
@@ -68,7 +66,11 @@ pub(super) fn compare(
     json: bool,
     console: Console,
 ) -> Result<(), Failures> {
-    let shifted = latency::compare(&read(a, foreign)?, &read(b, foreign)?, seed);
+    let shifted = latency::compare(
+        &read(a, foreign, console)?,
+        &read(b, foreign, console)?,
+        seed,
+    );
     if json {
         console.json(&encode_shifts(&shifted)).map_err(one)
     } else {
@@ -89,7 +91,7 @@ pub(super) fn overlay(
     let console = console.beside(&outputs);
     let mut runs = Vec::new();
     for file in files {
-        let run = read(file, foreign)?;
+        let run = read(file, foreign, console)?;
         if run.raw(stage).is_empty() {
             return Err(Plain::failure(
                 format!("{}: it has no times of that stage", file.display()),

@@ -22,7 +22,7 @@ use asperity_lab::capture::{
 use asperity_lab::servo_session::{OpenDevice, Setup, Surface, run as run_loop, run_unfelt};
 use asperity_recording::description::Quantity;
 
-use crate::error::Plain;
+use crate::error::{Plain, all};
 use crate::loop_options::{self, Interrupt, LoopOptions, stop_on_interrupt};
 use attendant::{Attendant, End};
 use summary::Summary;
@@ -31,8 +31,9 @@ use summary::Summary;
 ///
 /// Prompts on the screen guide you through rest in the air, taps, and strokes at all speeds and
 /// forces, and a grid shows what is covered so far. The recording ends when the grid is full, after
-/// --seconds, or at Ctrl-C, and is kept in each case. `asperity import recording DIR` compiles it
-/// into a texture.
+/// --seconds, at Ctrl-C, when device or sensor disappears, or after as much as an import keeps. It is
+/// kept in each case, if device and sensor overlap for a second and the disk has room. `asperity
+/// import recording DIR` compiles it into a texture.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   asperity-lab record oak --device 'sim:?grip=firm&hand=record' --accel sim: --seconds 60
@@ -52,6 +53,11 @@ Sensors:
                              the newtons of full scale
   sim:[?seed=N]              an accelerometer on the tool of sim: or replay:
   serial: and wav: also take delay_ms=N, the known latency of the sensor
+
+Limits: serial: on Linux and macOS alone, 16 columns, 1 KiB a line, 64 damaged lines in a row; wav: of
+10 to 200,000 Hz, integers of 8 to 32 bits or floats of 32 or 64, one or three channels without
+columns=. A sensor has 5 s for its first sample and must then send one a second. An import keeps
+64 million values.
 
 docs/recording.md describes the lines and the folder. No real sensor has been tested yet.")]
 pub(crate) struct Arguments {
@@ -242,25 +248,30 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         full_acceleration: arguments.accel.full_acceleration,
         full_force: arguments.accel.full_force,
     };
-    write(outputs, &files, &about, &recorded.take, &part).map_err(one)?;
-    folder.keep();
+    let written = write(outputs, &files, &about, &recorded.take, &part).map_err(one);
+    let is_kept = written.is_ok();
+    if is_kept {
+        folder.keep();
+    }
     let summary = Summary {
         folder: &arguments.folder,
         device: &device,
         sensor: &arguments.accel.name,
         recorded: &recorded,
         part: &part,
+        is_kept,
     };
     summary.warn(console);
-    if arguments.json {
-        console.json(&summary.json()).map_err(one)?;
+    let printed = if arguments.json {
+        console.json(&summary.json())
     } else {
-        console.report(&summary.text()).map_err(one)?;
-    }
-    if recorded.end == End::Lost {
-        return Err(recorded.failures);
-    }
-    Ok(())
+        console.report(&summary.text())
+    };
+    let lost = match recorded.end {
+        End::Lost => Err(recorded.failures),
+        _ => Ok(()),
+    };
+    all([written, printed.map_err(one), lost])
 }
 
 /// Name of the material.

@@ -20,6 +20,8 @@ pub(super) struct Summary<'s> {
     pub(super) sensor: &'s str,
     pub(super) recorded: &'s Recorded,
     pub(super) part: &'s Part,
+    /// Whether the folder was written.
+    pub(super) is_kept: bool,
 }
 
 fn end(end: End) -> &'static str {
@@ -44,6 +46,12 @@ impl Summary<'_> {
                 counted(counts.bad_lines, "invalid line", "invalid lines")
             ));
         }
+        if self.part.misdated > 0 {
+            warnings.push(format!(
+                "{} left out, because the time stamp was damaged on the way",
+                counted(self.part.misdated as u64, "sample was", "samples were")
+            ));
+        }
         if counts.missing > 0 {
             warnings.push(format!(
                 "{} from the sensor",
@@ -60,12 +68,13 @@ impl Summary<'_> {
         if self.part.is_cut {
             warnings.push("everything after a gap of 0.9 s was left out".into());
         }
-        match recording::check(self.folder) {
-            Ok((_, checked, _)) => {
+        match self.is_kept.then(|| recording::check(self.folder)) {
+            Some(Ok((_, checked, _))) => {
                 let found = checked.at_least(Severity::Warning);
                 warnings.extend(found.map(ToString::to_string));
             }
-            Err(error) => warnings.push(error.to_string()),
+            Some(Err(error)) => warnings.push(error.to_string()),
+            None => {}
         }
         for warning in warnings {
             console.warn(&warning);
@@ -85,13 +94,14 @@ impl Summary<'_> {
         let (covered, cells) = coverage.covered();
         let (touches, samples) = self.part.rows();
         json!({
-            "folder": self.folder.display().to_string(), "device": self.device,
+            "folder": self.is_kept.then(|| self.folder.display().to_string()), "device": self.device,
             "sensor": self.sensor, "end": end(self.recorded.end),
             "seconds": self.part.seconds, "touches": touches, "samples": samples,
             "sensor_rate_hz": self.part.rate_hz, "missed": missed,
             "covered": covered, "cells": cells, "cell_seconds": coverage.rows(),
             "taps": exploration.taps(), "air_s": exploration.air_s(),
             "bad_lines": counts.bad_lines, "missing_values": counts.missing,
+            "misdated_samples": self.part.misdated,
             "lost_ticks": lost.0, "lost_samples": lost.1,
         })
     }
@@ -104,7 +114,11 @@ impl Summary<'_> {
         format!(
             "{}\nrecording  {}, {:.1} s\ndevice     {}, {touches} positions, {}\nsensor     {}, {samples} samples at {:.1} Hz\ncovered    {covered} of {cells} cells; taps {}; {:.0} s in the air\nend        {}\n",
             screen::grid(exploration),
-            display(self.folder),
+            if self.is_kept {
+                display(self.folder).to_string()
+            } else {
+                "not kept".into()
+            },
             self.part.seconds,
             self.device,
             counted(self.recorded.missed, "missed period", "missed periods"),

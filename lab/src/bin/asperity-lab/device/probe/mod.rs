@@ -18,7 +18,7 @@ use serde_json::{Value, json};
 
 use super::failure;
 use super::inventory::{Inventory, libraries};
-use crate::error::Plain;
+use crate::error::{Plain, all};
 use report::{Positions, Private, archive};
 
 /// Check whether a device works
@@ -85,14 +85,15 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
     let seconds = arguments.seconds.unwrap_or(usual);
     let mut well = true;
     let mut values = Vec::new();
+    let mut written = Ok(());
     for uri in &uris {
         let mut positions = Positions::new();
         let probed = probe(uri, seconds, &mut positions);
         if let Some(report) = report {
             let bytes = reported(uri, &probed, &positions);
             let bytes = bytes.map_err(|error| Plain::failure(error, "report this as a bug"))?;
-            outputs.fill(report, &bytes).map_err(one)?;
-            outputs.commit().map_err(one)?;
+            let filled = outputs.fill(report, &bytes);
+            written = filled.and_then(|()| outputs.commit()).map_err(one);
             outputs = Outputs::beside::<PathBuf>([]);
         }
         match probed {
@@ -106,7 +107,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
                         "problem": problem, "remedy": remedy,
                     }));
                 } else if uris.len() == 1 {
-                    return Err(failure(&problem, remedy));
+                    return all([Err(failure(&problem, remedy)), written]).map(|()| well);
                 } else {
                     let text = format!("{uri}\n  {problem}\n  help: {remedy}\n");
                     console.text(&text).map_err(one)?;
@@ -114,10 +115,11 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
             }
         }
     }
-    if arguments.json {
-        super::json(console, &json!({ "devices": values }))?;
-    }
-    Ok(well)
+    let printed = match arguments.json {
+        true => super::json(console, &json!({ "devices": values })),
+        false => Ok(()),
+    };
+    all([written, printed]).map(|()| well)
 }
 
 pub(super) fn parse(text: &str) -> Result<Uri, Failures> {
