@@ -396,3 +396,173 @@ fn a_confined_list_names_only_files_in_its_own_folder() {
     let error = Lock::within(&list, &reach).expect_err("a link");
     assert!(report(&error).contains("list.toml.lock: a link that leaves the folder"));
 }
+
+/// Whatever wrote a list: a whole number is one, a cell without a value is none, and a head has any case.
+#[test]
+fn values_are_read_as_other_writers_write_them() {
+    let seed = |file: &str, text: &str| -> Result<u64, String> {
+        let manifest = Manifest::of_text(Path::new(file), text).map_err(|errors| told(&errors))?;
+        let Origin::Source { source, .. } = &manifest.entries[0].origin else {
+            panic!("a source")
+        };
+        let shown = format!("{source:?}");
+        let seed = shown.split_once("seed: ").expect("a seed").1;
+        let digits = seed.split(|c: char| !c.is_ascii_digit()).next();
+        Ok(digits.expect("digits").parse().expect("a seed"))
+    };
+    let written = |value: &str| {
+        [
+            seed(
+                "a.toml",
+                &format!("[[texture]]\nprompt = 'oak'\nseed = {value}\n"),
+            ),
+            seed("a.csv", &format!("Prompt;Seed\noak;{value}\n")),
+            seed(
+                "a.jsonl",
+                &format!("{{\"prompt\": \"oak\", \"seed\": {value}}}\n"),
+            ),
+        ]
+    };
+    for (value, whole) in [
+        ("3", 3),
+        ("3.0", 3),
+        ("12.00", 12),
+        ("1.000", 1),
+        ("1E+05", 100_000),
+        ("1.5e1", 15),
+        ("-0", 0),
+        ("-0.0", 0),
+        ("9007199254740993", 9_007_199_254_740_993),
+    ] {
+        for (n, found) in written(value).into_iter().enumerate() {
+            match found {
+                Ok(found) => assert_eq!(found, whole, "{value}: {n}"),
+                // In a table it may be a thousand.
+                Err(error) => assert!(
+                    value == "1.000" && n == 1 && error.contains(value),
+                    "{error}"
+                ),
+            }
+        }
+    }
+    for (value, shown) in [
+        ("3.5", "3.5"),
+        ("-2", "-2"),
+        ("1e300", "1"),
+        ("-1E+05", "-100000"),
+    ] {
+        for (n, found) in written(value).into_iter().enumerate() {
+            let error = found.unwrap_err();
+            let shown = if n == 1 { value } else { shown };
+            assert!(error.contains(&format!("\"{shown}")), "{value}: {error}");
+            assert!(
+                error.contains("a whole number, 0 or more"),
+                "{value}: {error}"
+            );
+        }
+    }
+    for value in [
+        "1,000",
+        "1 000",
+        "1'000",
+        "12.500.000",
+        "1.000",
+        "three",
+        "1.23457E+11",
+        "0x10",
+        "NaN",
+    ] {
+        let error = seed("a.csv", &format!("prompt;seed\noak;{value}\n")).unwrap_err();
+        assert!(
+            error.contains(value) && error.contains("such as 1000"),
+            "{error}"
+        );
+    }
+    let none = [
+        "NA",
+        "N/A",
+        "nan",
+        "#N/A",
+        "#REF!",
+        "#BEZUG!",
+        "#DIV/0!",
+        "#¿NOMBRE?",
+        "#NULL!",
+        "Err:502",
+        "<NA>",
+        "None",
+        "NULL",
+        "—",
+        "--",
+        "?",
+        "…",
+        "###",
+        "-NaN",
+        "1.#QNAN",
+        "#N/A N/A",
+        "(none)",
+        "[null]",
+        "(blank)",
+        "n.a.",
+        "N/D",
+        "#N/D",
+        "#Н/Д",
+        "#YOK",
+        "#HIÁNYZIK",
+        "#GETTING_DATA",
+        "#NOM ?",
+        "Fehler:502",
+        "•",
+        "ー",
+        "＃N/A",
+    ];
+    for word in none {
+        let json = format!("{{\"name\": \"a\", \"prompt\": \"{word}\"}}");
+        for (file, text) in [
+            ("a.csv", format!("name,prompt\na,oak\nb, {word} \n")),
+            ("a.jsonl", format!("\n{json}\n")),
+            ("a.toml", format!("[[texture]]\nprompt = \"{word}\"\n")),
+        ] {
+            let errors = Manifest::of_text(Path::new(file), &text).unwrap_err();
+            let told = told(&errors);
+            assert_eq!(errors.len(), 1, "{told}");
+            assert!(
+                told.contains("is no prompt") && told.contains(word),
+                "{told}"
+            );
+            assert_eq!(
+                errors[0].line,
+                Some(if file == "a.csv" { 3 } else { 2 }),
+                "{told}"
+            );
+        }
+    }
+    for prompt in [
+        "nan bread",
+        "none too rough",
+        "#1 sandpaper!",
+        "木",
+        "🔥",
+        "n/a finish",
+        "blank",
+        "#wood",
+        "err: 5 oak",
+        "3",
+    ] {
+        let text = format!("name,prompt\nNA,{prompt}\n");
+        assert!(
+            Manifest::of_text(Path::new("a.csv"), &text).is_ok(),
+            "{prompt}"
+        );
+    }
+    for (name, file) in [("#REF!", "a.csv"), ("#N/A", "a.csv"), ("NaN", "a.csv")] {
+        let errors =
+            Manifest::of_text(Path::new(file), &format!("name,prompt\n{name},oak\n")).unwrap_err();
+        assert!(told(&errors).contains("is no name"), "{}", told(&errors));
+    }
+    // A null is a key that is not there.
+    let text = "{\"name\": null, \"prompt\": \"oak\", \"seed\": null, \"edit\": {\"rougher\": 1, \"harder\": null}}";
+    assert_eq!(seed("a.jsonl", text), Ok(0));
+    let error = seed("a.jsonl", "{\"prompt\": null}").unwrap_err();
+    assert!(error.contains("no source"), "{error}");
+}

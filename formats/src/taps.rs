@@ -196,8 +196,13 @@ type Packed = [u8; 1 + packed_len(BLOCK)];
 #[inline(always)]
 fn two_codes(packed: &Packed, pair: usize) -> [i32; 2] {
     let word = packed.get(3 * pair..).and_then(<[u8]>::first_chunk);
-    let bits = i32::from_le_bytes(*word.unwrap_or(&[0; 4]));
-    [(bits << 12) >> 20, bits >> 20]
+    codes_of(i32::from_le_bytes(*word.unwrap_or(&[0; 4])))
+}
+
+/// The two codes of a word that begins with the byte before them.
+#[inline(always)]
+fn codes_of(word: i32) -> [i32; 2] {
+    [(word << 12) >> 20, word >> 20]
 }
 
 /// Reads the accelerations of traces from sample `first` on, which is even, m/s²: one row a sample,
@@ -258,8 +263,12 @@ impl<'a> Trace<'a> {
     pub fn accel_m_s2(&self) -> impl ExactSizeIterator<Item = f32> + Clone + use<'a> {
         let trace = *self;
         (0..self.samples).map(move |index| {
-            let packed = padded(trace.rest(index - index % 2));
-            two_codes(&packed, 0)[index % 2] as f32 * trace.step()
+            let rest = trace.rest(index - index % 2);
+            let codes = match rest.first_chunk() {
+                Some(word) => codes_of(i32::from_le_bytes(*word)),
+                None => two_codes(&padded(rest), 0),
+            };
+            codes[index % 2] as f32 * trace.step()
         })
     }
 

@@ -351,10 +351,32 @@ fn a_haptic_length_that_is_not_the_assets_is_found_when_it_is_read() {
     seal(&mut bytes);
     let library = Library::parse(&bytes).unwrap();
     assert!(library.asset(0).is_ok() && library.asset(2).is_ok());
-    let error = library.asset(1).map(drop).unwrap_err();
-    assert!(
-        matches!(error, FormatError::Invalid { field: "library.entry.haptic_len", index: 1, value, .. }
-            if value == f64::from(stated)),
-        "{error}"
+    // However it is read: whole, as bytes, or by the index alone.
+    let entry = library.index().get(1).unwrap();
+    let end = entry.offset as usize + entry.len as usize;
+    for refused in [
+        library.asset(1).map(drop),
+        library.bytes(1).map(drop),
+        entry.check(1, &bytes[entry.offset as usize..end]),
+    ] {
+        let error = refused.unwrap_err();
+        assert!(
+            matches!(error, FormatError::Invalid { field: "library.entry.haptic_len", index: 1, value, .. }
+                if value == f64::from(stated)),
+            "{error}"
+        );
+    }
+    // An asset that is damaged itself is named as such.
+    let start = entry.offset as usize;
+    bytes[start + 8] ^= 1;
+    let damaged = Library::parse(&bytes).unwrap().asset(1).map(drop);
+    let header = FormatError::Checksum {
+        section: "header",
+        stated: 0,
+        computed: 0,
+    };
+    assert_eq!(
+        damaged.map_err(|e| std::mem::discriminant(&e)),
+        Err(std::mem::discriminant(&header))
     );
 }

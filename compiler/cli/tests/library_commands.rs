@@ -1,6 +1,7 @@
 //! What is done with a library that is built: compared, renamed, split.
 
 use super::{library::manifest, *};
+use asperity::library::{NamedAsset, encode};
 
 #[test]
 fn a_difference_is_told_in_figures_and_by_the_exit_status() {
@@ -129,4 +130,48 @@ fn split_writes_safe_files_and_says_which_names_they_lack() {
         "{told}"
     );
     assert!(!told.contains('\u{202e}'), "{told}");
+}
+
+/// The JSON of a library is made and printed part by part; it is one text, and a damaged texture leaves none of it.
+#[test]
+fn a_large_library_is_inspected_part_by_part() {
+    let inputs = inputs();
+    let folder = inputs.path();
+    let asset = fs::read(folder.join("good.asp")).expect("an asset");
+    // More than are in memory together.
+    let names: Vec<String> = (0..1030).map(|n| format!("t{n:04}")).collect();
+    let named: Vec<NamedAsset<'_>> = names
+        .iter()
+        .map(|name| NamedAsset {
+            name,
+            bytes: &asset,
+        })
+        .collect();
+    let mut library = encode(&named).expect("a library");
+    fs::write(folder.join("many.aspl"), &library).expect("a library");
+    let said = good(folder, &["inspect", "many.aspl", "--json"]);
+    assert_eq!(said.lines().count(), 1);
+    let json: serde_json::Value = serde_json::from_str(&said).expect("JSON");
+    let textures = json["textures"].as_array().expect("textures");
+    let found: Vec<&str> = textures.iter().filter_map(|t| t["name"].as_str()).collect();
+    assert_eq!(
+        (json["format_version"].as_u64(), found),
+        (Some(1), names.iter().map(String::as_str).collect())
+    );
+    let one = good(
+        folder,
+        &["inspect", "many.aspl", "--texture", "t0777", "--json"],
+    );
+    let one: serde_json::Value = serde_json::from_str(&one).expect("JSON");
+    assert_eq!(textures[777], one);
+    // What `list` and the table say is of the model that the JSON shows.
+    let list = good(folder, &["list", "many.aspl", "--json"]);
+    let list: serde_json::Value = serde_json::from_str(&list).expect("JSON");
+    assert_eq!(list["textures"][777]["attributes"], one["attributes"]);
+    let last = library.len() - 1;
+    library[last] ^= 1;
+    fs::write(folder.join("many.aspl"), &library).expect("a library");
+    refused(folder, &["inspect", "many.aspl", "--json"], &["t1029"]);
+    let output = asperity(folder, &["inspect", "many.aspl", "--json"]);
+    assert_eq!(text(&output.stdout), "");
 }

@@ -15,7 +15,7 @@ fn what_is_misspelt_is_reported_once_with_what_may_have_been_meant() {
     .expect("a manifest");
     fs::write(
         folder.join("b.jsonl"),
-        "{\"name\":\"x\",\"Prompt\":\"cork\"}\n",
+        "{\"name\":\"x\",\"Prompts\":\"cork\"}\n",
     )
     .expect("a manifest");
     fs::write(
@@ -30,7 +30,10 @@ fn what_is_misspelt_is_reported_once_with_what_may_have_been_meant() {
         ),
         (
             "b.jsonl",
-            &["b.jsonl:1: Prompt: no such key", "did you mean \"prompt\"?"],
+            &[
+                "b.jsonl:1: Prompts: no such key",
+                "did you mean \"prompt\"?",
+            ],
         ),
         (
             "c.toml",

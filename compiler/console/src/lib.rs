@@ -95,6 +95,14 @@ impl Console {
         self.print(&format!("{json:#}\n"))
     }
 
+    /// Writes a part of a JSON text that no memory should hold as a whole.
+    ///
+    /// # Errors
+    /// As [`text`](Self::text).
+    pub fn json_part(&self, text: &str) -> Result<(), OutputError> {
+        self.print(text)
+    }
+
     fn print(&self, text: &str) -> Result<(), OutputError> {
         let (stream, printed) = if self.results_on_stderr {
             ("standard error", send(io::stderr().lock(), text))

@@ -17,16 +17,14 @@ const MAX_TRANSIENTS: usize = 4096;
 /// JSON as a type, or the path of what is not of it. A comma behind the last entry of a list or an object is
 /// let pass, because Apple's own samples have some.
 pub(super) fn json<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
-    let text = input::without_trailing_commas(text);
+    let text = input::lenient_json(text);
     let mut json = serde_json::Deserializer::from_str(&text);
     let value = serde_path_to_error::deserialize(&mut json).map_err(|error| {
         // What cannot be parsed has no name within its object.
         let path = error.path().to_string();
         let field = path.trim_end_matches('?').trim_end_matches('.');
-        (
-            field.to_owned(),
-            EffectProblem::Json(error.inner().to_string()),
-        )
+        let fault = input::json_fault(&text, error.inner());
+        (field.to_owned(), EffectProblem::Json(fault))
     })?;
     let trailing = |e: serde_json::Error| (String::new(), EffectProblem::Json(e.to_string()));
     json.end().map_err(trailing)?;
@@ -97,7 +95,7 @@ mod tests {
             ("[\"\\\\\",]", "[\"\\\\\" ]"),
             ("[\"é\",]", "[\"é\" ]"),
         ] {
-            assert_eq!(input::without_trailing_commas(text), plain);
+            assert_eq!(input::lenient_json(text), plain);
             let read: Value = json(text).unwrap();
             assert_eq!(read, serde_json::from_str::<Value>(plain).unwrap());
         }

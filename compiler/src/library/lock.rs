@@ -4,12 +4,12 @@ use super::manifest::CONFINED_REMEDY;
 use asperity_io::{
     diagnostic::Diagnostic,
     input::{self, InputError, InputProblem, Kind, Outside, Reach},
-    output::write_atomic,
+    output::{AtomicFile, OutputError},
     toml_error::TomlError,
 };
 use serde::Deserialize;
 use std::{
-    io,
+    fs, io,
     path::{Path, PathBuf},
 };
 use thiserror::Error;
@@ -40,6 +40,8 @@ pub struct Pinned {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Lock {
     file: PathBuf,
+    /// The file itself, behind any link that led to it.
+    target: PathBuf,
     found: Option<Pinned>,
 }
 
@@ -50,13 +52,19 @@ pub enum LockError {
     /// It cannot be read.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// It is not what this version writes.
-    #[error("{file}: {error}", file = file.display())]
+    /// It is not what this version writes. Its text is not repeated: a link in its place leads to any file.
+    #[error("{file}:{line}: not what a lock file of asperity has", file = file.display())]
     Syntax {
         /// The lock file.
         file: PathBuf,
-        /// Where it is wrong.
-        error: TomlError,
+        /// Where it is wrong, 1-based.
+        line: usize,
+    },
+    /// It is a link to a file that is not there, which would be written through it.
+    #[error("{file}: a symbolic link to a file that is not there", file = file.display())]
+    Dangling {
+        /// The lock file.
+        file: PathBuf,
     },
     /// It was written by a later version.
     #[error("{file}: format {found}, this version reads {FORMAT}", file = file.display())]
@@ -94,7 +102,7 @@ impl Diagnostic for LockError {
     fn remedy(&self) -> String {
         match self {
             Self::Input(error) => error.remedy(),
-            Self::Syntax { .. } | Self::Format { .. } => {
+            Self::Syntax { .. } | Self::Format { .. } | Self::Dangling { .. } => {
                 "remove it, and build once without --locked to write it anew".into()
             }
             Self::Outside { .. } => CONFINED_REMEDY.into(),
@@ -163,13 +171,20 @@ impl Lock {
         let text = match input::read_text(&file, Kind::Settings) {
             Ok(text) => text,
             Err(InputProblem::Unreadable(error)) if error.kind() == io::ErrorKind::NotFound => {
-                return Ok(Self { file, found: None });
+                if fs::symlink_metadata(&file).is_ok() {
+                    return Err(LockError::Dangling { file });
+                }
+                return Ok(Self {
+                    target: file.clone(),
+                    file,
+                    found: None,
+                });
             }
             Err(problem) => return Err(InputError { file, problem }.into()),
         };
         let wrong = |error: &toml::de::Error| LockError::Syntax {
             file: file.clone(),
-            error: TomlError::new(&text, error),
+            line: TomlError::new(&text, error).line,
         };
         let raw: Raw = toml::from_str(&text).map_err(|error| wrong(&error))?;
         if raw.format != FORMAT {
@@ -187,7 +202,12 @@ impl Lock {
             backend: raw.backend,
             reader: raw.reader,
         });
-        Ok(Self { file, found })
+        let target = fs::canonicalize(&file).unwrap_or_else(|_| file.clone());
+        Ok(Self {
+            file,
+            target,
+            found,
+        })
     }
 
     /// The lock file.
@@ -237,11 +257,18 @@ impl Lock {
             .map(|drift| format!("{file}: {drift}; it pins that now"))
             .collect();
         if let Some(text) = self.text(now)
-            && let Err(error) = write_atomic(&self.file, text.as_bytes())
+            && let Err(error) = self.write(&text)
         {
             warnings.push(format!("{error}: {}; nothing is pinned", error.source));
         }
         warnings
+    }
+
+    /// Writes the file that was read, or where none was: a link that appeared meanwhile is replaced.
+    fn write(&self, text: &str) -> Result<(), OutputError> {
+        let mut file = AtomicFile::replacing(&self.target)?;
+        file.fill(text.as_bytes())?;
+        file.commit()
     }
 
     /// The text of a lock file; `None` where the lock holds it already.
@@ -287,7 +314,7 @@ mod tests {
             none.hold(&pinned()),
             Err(LockError::Missing { .. })
         ));
-        std::fs::write(none.file(), none.text(&pinned()).unwrap()).unwrap();
+        fs::write(none.file(), none.text(&pinned()).unwrap()).unwrap();
         let lock = Lock::beside(&manifest).unwrap();
         assert!(lock.hold(&pinned()).is_ok() && lock.text(&pinned()).is_none());
         let other = Pinned {
@@ -299,8 +326,50 @@ mod tests {
             error.contains("model_crc32 was 0000dead, is 0000beef"),
             "{error}"
         );
-        std::fs::write(lock.file(), "format = 1\nwhat = 2\n").unwrap();
+        fs::write(lock.file(), "format = 1\nwhat = 2\n").unwrap();
         let error = Lock::beside(&manifest).unwrap_err();
         assert!(matches!(error, LockError::Syntax { .. }), "{error}");
+    }
+
+    /// A link in the place of a lock leads to any file: its text is not shown, and nothing is written through it.
+    #[cfg(unix)]
+    #[test]
+    fn a_link_shows_and_writes_nothing_of_what_it_leads_to() {
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().unwrap();
+        let (list, other) = (folder.path().join("x.csv"), folder.path().join("other"));
+        let lock = folder.path().join("x.csv.lock");
+        symlink(&other, &lock).unwrap();
+        for text in ["root:secret:0\n", "secret = 4\n", "format = \"secret\"\n"] {
+            fs::write(&other, text).unwrap();
+            let error = Lock::beside(&list).unwrap_err();
+            assert!(matches!(error, LockError::Syntax { .. }), "{error}");
+            assert!(!error.to_string().contains("secret"), "{error}");
+        }
+        fs::remove_file(&other).unwrap();
+        let error = Lock::beside(&list).unwrap_err();
+        assert!(matches!(error, LockError::Dangling { .. }), "{error}");
+        // A lock that is kept elsewhere is one.
+        let plain = Lock {
+            file: other.clone(),
+            target: other.clone(),
+            found: None,
+        };
+        fs::write(&other, plain.text(&pinned()).unwrap()).unwrap();
+        let linked = Lock::beside(&list).unwrap();
+        assert!(linked.hold(&pinned()).is_ok());
+        let later = Pinned {
+            reader: "2".into(),
+            ..pinned()
+        };
+        assert_eq!(linked.update(&later).len(), 1);
+        assert!(Lock::beside(&list).unwrap().hold(&later).is_ok());
+        assert!(fs::symlink_metadata(&lock).unwrap().is_symlink());
+        // A link that appears during a build leads nowhere.
+        let target = folder.path().join("target");
+        let late = Lock::beside(&folder.path().join("y.csv")).unwrap();
+        symlink(&target, late.file()).unwrap();
+        assert_eq!(late.update(&pinned()), [""; 0]);
+        assert!(!target.exists() && late.file().is_file());
     }
 }

@@ -1,7 +1,10 @@
 //! The index: where each texture of a library lies.
 
 use super::layout::{ENTRY_LEN, HEADER_LEN, MAGIC, VERSION, VERSION_WITH_SCENE};
-use crate::{checksum::crc32, error::FormatError, friction::text, limits, scene, wire::array_at};
+use crate::{
+    checksum::crc32, error::FormatError, friction::text, header::Header, limits, scene,
+    wire::array_at,
+};
 use core::{cmp::Ordering, ops::Range};
 
 /// A validated index, borrowed from the front of a library.
@@ -26,6 +29,27 @@ pub struct Entry<'a> {
     pub len: u32,
     /// Bytes of it that a runtime needs.
     pub haptic_len: u32,
+}
+
+impl Entry<'_> {
+    /// Compares the haptic length with that of the asset, which the index alone cannot show. `index` names the entry
+    /// in the error. An asset whose own header is damaged passes: whoever parses it finds that.
+    ///
+    /// # Errors
+    /// [`FormatError::Invalid`] of `library.entry.haptic_len`.
+    pub fn check(&self, index: usize, asset: &[u8]) -> Result<(), FormatError> {
+        match Header::parse(asset) {
+            Ok(header) if header.haptic_len != self.haptic_len as usize => {
+                Err(FormatError::invalid(
+                    "library.entry.haptic_len",
+                    index,
+                    f64::from(self.haptic_len),
+                    "must be the asset's own",
+                ))
+            }
+            _ => Ok(()),
+        }
+    }
 }
 
 /// Length of header, entries and names, from the first [`HEADER_LEN`] bytes.

@@ -60,18 +60,21 @@ impl<'a> Library<'a> {
         &self.index
     }
 
-    /// Bytes of the asset at `index`, unchecked.
+    /// Bytes of the asset at `index`. That its haptic length is the one of the index is all that is checked.
     ///
     /// # Errors
-    /// [`FormatError::NoSuchTexture`].
+    /// [`FormatError::NoSuchTexture`], or the haptic length.
     pub fn bytes(&self, index: usize) -> Result<&'a [u8], FormatError> {
-        self.index
-            .get(index)
-            .and_then(|entry| self.bytes.get(range(&entry)?))
-            .ok_or(FormatError::NoSuchTexture {
+        let entry = self.index.get(index);
+        let bytes = entry.and_then(|entry| self.bytes.get(range(&entry)?));
+        let (Some(entry), Some(bytes)) = (entry, bytes) else {
+            return Err(FormatError::NoSuchTexture {
                 index,
                 count: self.index.len(),
-            })
+            });
+        };
+        entry.check(index, bytes)?;
+        Ok(bytes)
     }
 
     /// The checked asset at `index`.
@@ -79,18 +82,7 @@ impl<'a> Library<'a> {
     /// # Errors
     /// [`FormatError::NoSuchTexture`], or why the asset was rejected.
     pub fn asset(&self, index: usize) -> Result<Asset<'a>, FormatError> {
-        let mut asset = Asset::parse(self.bytes(index)?);
-        let stated = self.index.get(index).map_or(0, |entry| entry.haptic_len);
-        // In place: an asset that is moved takes its room twice.
-        if (asset.as_ref()).is_ok_and(|asset| asset.haptic_len() != stated as usize) {
-            asset = Err(FormatError::invalid(
-                "library.entry.haptic_len",
-                index,
-                f64::from(stated),
-                "must be the asset's own",
-            ));
-        }
-        asset
+        Asset::parse(self.bytes(index)?)
     }
 }
 

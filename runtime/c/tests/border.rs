@@ -12,9 +12,13 @@ use asperity_c::{
     asperity_player_tick, asperity_preparer_load_asset, asperity_recorder_init,
     asperity_recorder_read, asperity_recorder_write, asperity_renderer_init, asperity_scene_init,
     asperity_scene_state_init, asperity_scene_tick, asperity_state_counters, asperity_state_init,
-    asperity_texture_init, asperity_texture_load_asset, asperity_tick,
+    asperity_texture_init, asperity_texture_load_asset, asperity_texture_load_index,
+    asperity_texture_load_name, asperity_tick,
 };
-use asperity_formats::{Asset, Library};
+use asperity_formats::{
+    Asset, Library,
+    library::{IndexedTexture, encode_index, encoded_index_len},
+};
 use asperity_runtime::{Config, Exchange, HostTexture, Renderer, Sample, Scene, SceneState, State};
 use std::{mem::MaybeUninit, ptr};
 
@@ -298,6 +302,41 @@ fn a_slot_begins_empty_in_any_memory() {
     assert_eq!(slot.servo_rate_hz(), 1000.0);
     slot.clear();
     assert!(is_empty(slot));
+}
+
+/// What the index states of a texture is compared with the texture, of which C reads the haptic part alone.
+#[test]
+fn a_haptic_length_of_the_index_that_is_wrong_is_refused() {
+    let (len, haptic_len) = (
+        ASSET.len() as u32,
+        Asset::parse(ASSET).unwrap().haptic_len() as u32,
+    );
+    let mut renderer_memory = Memory::new();
+    let mut memory = Memory::<ASPERITY_TEXTURE_SIZE_LARGE>::new();
+    let renderer = renderer(&mut renderer_memory);
+    for (change, expected) in [(0, AsperityStatus::Ok), (1, AsperityStatus::Format)] {
+        let textures = [IndexedTexture {
+            name: "a",
+            len,
+            haptic_len: haptic_len - change,
+        }];
+        let mut library = vec![0; encoded_index_len(&textures)];
+        encode_index(&textures, &mut library).unwrap();
+        library.extend(ASSET);
+        let (bytes, len) = (library.as_ptr(), library.len());
+        let (mut texture, error) = (ptr::null_mut(), ptr::null_mut());
+        // SAFETY: every pointer leads to memory of its size, or to a text that ends with a null.
+        let statuses = unsafe {
+            let (capacity, size) = (ASPERITY_CAPACITY_LARGE, ASPERITY_TEXTURE_SIZE_LARGE);
+            let memory = memory.as_mut_ptr();
+            asperity_texture_init(memory, size, renderer, capacity, &raw mut texture);
+            [
+                asperity_texture_load_index(texture, bytes, len, 0, error),
+                asperity_texture_load_name(texture, bytes, len, c"a".as_ptr(), error),
+            ]
+        };
+        assert_eq!(statuses, [expected; 2]);
+    }
 }
 
 /// Whether every number of a slot is that of an empty one. Miri would print them for minutes, so

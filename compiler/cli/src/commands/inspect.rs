@@ -2,8 +2,9 @@
 
 use crate::cli::Inspect;
 use asperity::{
-    attributes::Meter,
+    attributes::{Attributes, Meter},
     inspect::{self, Document, LibraryDocument, SurfaceDocument},
+    raise::attributes,
     textures::Textures,
 };
 use asperity_console::Console;
@@ -47,16 +48,15 @@ fn whole_library(
     names: &[String],
     console: Console,
 ) -> Result<(), Failures> {
-    let (documents, rows) = if args.json {
-        let found = textures.each(Meter::default, |meter, name, asset| {
-            Document::measured(asset, name.to_owned(), meter)
-        });
-        (found.map_err(one)?, Vec::new())
+    let rows = if args.json {
+        // Each is checked before any is printed, and made when it is: together they take gigabytes.
+        textures.each(|| (), |(), _, _| ()).map_err(one)?;
+        Vec::new()
     } else {
         let found = textures.each(Meter::default, |meter, name, asset| {
-            row(name, &Document::measured(asset, name.to_owned(), meter))
+            row(name, asset, &attributes(asset, meter))
         });
-        (Vec::new(), found.map_err(one)?)
+        found.map_err(one)?
     };
     let surfaces: Vec<SurfaceDocument> = textures
         .surfaces()
@@ -65,12 +65,12 @@ fn whole_library(
         .map(|surface| SurfaceDocument::of(surface, names))
         .collect();
     if args.json {
-        let document = LibraryDocument {
+        let empty = inspect::json(&LibraryDocument {
             format_version: textures.library_version().unwrap_or(library::VERSION),
-            textures: documents,
+            textures: Vec::new(),
             surfaces,
-        };
-        return print_json(&document, console);
+        });
+        return print_library(textures, names.len(), &empty, console);
     }
     let mut text = format!(
         "{}: a library of {}, all checksums verified\n",
@@ -95,18 +95,44 @@ fn whole_library(
     console.text(&text).map_err(one)
 }
 
+/// Prints the JSON of a library around that of its textures, some of which are in memory at a time.
+fn print_library(
+    textures: &mut Textures,
+    count: usize,
+    empty: &str,
+    console: Console,
+) -> Result<(), Failures> {
+    const TEXTURES: &str = "\"textures\":[";
+    let (head, tail) = empty.split_once(TEXTURES).unwrap_or((empty, ""));
+    console
+        .json_part(&format!("{head}{TEXTURES}"))
+        .map_err(one)?;
+    let mut from = 0;
+    while from < count {
+        let found = textures.each_from(from, Meter::default, |meter, name, asset| {
+            inspect::json(&Document::measured(asset, name.to_owned(), meter))
+        });
+        let found = found.map_err(one)?;
+        let before = if from == 0 { "" } else { "," };
+        from += found.len();
+        let part = format!("{before}{}", found.join(","));
+        console.json_part(&part).map_err(one)?;
+    }
+    console.json_part(&format!("{tail}\n")).map_err(one)
+}
+
 /// The figures of one texture of a library.
-fn row(name: &str, d: &Document) -> String {
+fn row(name: &str, asset: &Asset<'_>, found: &Attributes) -> String {
     let figure = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |x| format!("{x:.1}"));
     format!(
         "{:>8}  {:>7}  {:>5}  {:>8}  {:>8}  {:>8}  {:>5.3}  {name}",
-        d.bytes.haptic,
-        d.bytes.total,
-        d.ar.order,
-        d.ar.vertices.len(),
-        figure(d.attributes.rough_db),
-        figure(d.attributes.sharp_hz),
-        d.attributes.mu,
+        asset.haptic_len(),
+        asset.total_len(),
+        asset.grid().ar_order(),
+        asset.grid().vertices().len(),
+        figure(found.rough_db),
+        figure(found.sharp_hz),
+        found.mu,
     )
 }
 

@@ -11,7 +11,12 @@ pub(super) const CHECKS: &[(&str, Check)] = &[
     ("ahap-lenient", what_is_not_used_refuses_no_ahap),
     ("ahap-trailing-comma", trailing_commas_are_read),
     ("effect-refusal-names-no-cause", what_was_left_out_is_named),
+    ("asset-line-ends", conversions_of_an_asset_are_named),
     ("lfs-pointer", pointers_of_git_lfs_are_named),
+    (
+        "unknown-haptic-formats",
+        strangers_are_named_by_every_import,
+    ),
     (
         "wrong-format-help",
         other_formats_are_named_with_their_command,
@@ -125,5 +130,45 @@ fn other_formats_are_named_with_their_command(case: &Case) {
                 );
             }
         }
+    }
+}
+
+fn strangers_are_named_by_every_import(case: &Case) {
+    for (file, named) in [
+        ("android.xml", "an Android vibration (XML)"),
+        ("bplist.ahap", "a property list"),
+        ("in_plist.ahap", "a property list"),
+        ("notfound.ahap", "a server's message"),
+        ("notfound.haptic", "a server's message"),
+        ("single_quotes.ahap", "Python"),
+        ("string_json.ahap", "encoded twice"),
+        ("unity_asset.haptic", "a Unity asset"),
+        ("unity_meta.haptic", "a Unity .meta file"),
+        ("waveform.json", "an Android vibration waveform"),
+        ("x.funscript", "a funscript"),
+    ] {
+        let path = case.file(file);
+        for kind in ["ahap", "haptic", "hjif", "hatt", "model"] {
+            case.refused(&["import", kind, &path, "-o", "out.asp"], &[file, named]);
+        }
+        case.refused(&["inspect", &path], &[file, named]);
+    }
+    let nan = case.file("nan.ahap");
+    case.refused(
+        &["import", "ahap", &nan, "-o", "out.asp"],
+        &["ParameterValue: NaN at line 15", "JSON has no NaN"],
+    );
+}
+
+fn conversions_of_an_asset_are_named(case: &Case) {
+    for (file, named) in [
+        ("crlf.asp", "its line ends were converted"),
+        ("utf8.asp", "it was read as text"),
+    ] {
+        let path = case.file(file);
+        let says = [file, named, "*.asp binary", "fetch it again"];
+        case.refused(&["inspect", &path], &says);
+        case.refused(&["list", &path], &says);
+        case.refused(&["preview", &path, "-o", "x.png"], &says);
     }
 }

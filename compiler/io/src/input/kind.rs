@@ -96,7 +96,8 @@ impl Kind {
     pub(super) fn takes(self, format: Format) -> bool {
         match self {
             Self::Asset => matches!(format, Format::Asset | Format::Library),
-            Self::Hatt => format == Format::Hatt,
+            // The reader of a HaTT material names the root that it found.
+            Self::Hatt => matches!(format, Format::Hatt | Format::Xml),
             Self::Model => format == Format::Model,
             // Each import names the one format that it reads.
             Self::Effects => true,

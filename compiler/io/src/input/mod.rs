@@ -5,25 +5,27 @@
 //! ends in an error. What is of another known format than its kind is refused by that
 //! format's name. `docs/limits.md` lists every limit.
 
+mod documents;
 mod format;
 mod kind;
+mod lenient_json;
 mod open;
 mod pipe;
 mod pipe_timeout;
 mod problem;
 mod reach;
 mod read;
+mod signatures;
 #[cfg(test)]
 mod tests;
-mod trailing_commas;
 mod xml;
 
 pub use format::{Format, HEAD};
 pub use kind::Kind;
+pub use lenient_json::{json_fault, lenient_json};
 pub use open::{Opened, format_of, open, open_as};
 pub use pipe_timeout::{MAX_SILENCE, MAX_WAIT};
 pub use problem::{InputError, InputProblem};
 pub use reach::{Outside, Reach};
 pub use read::{admit, read, read_text, text, to_end};
-pub use trailing_commas::without_trailing_commas;
 pub use xml::{MAX_ATTRIBUTES, MAX_DEPTH, MAX_NAMESPACES, Nesting, NestingProblem, check_nesting};

@@ -1,10 +1,11 @@
 //! Opening a file: what kind of thing it is decides whether and how it is read.
 
 use super::{
-    format::{Format, HEAD, POINTER_BYTES},
+    format::{Format, HEAD},
     kind::Kind,
     pipe::Pipe,
     problem::InputProblem,
+    signatures::POINTER_BYTES,
 };
 use std::{
     fs::{self, File, FileType},

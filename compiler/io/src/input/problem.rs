@@ -53,8 +53,14 @@ pub enum InputProblem {
         /// What it is.
         format: Format,
         /// What it is meant to be, with an article.
-        wanted: String,
+        wanted: Box<str>,
     },
+    /// There is nothing in it but space or zeros.
+    #[error("the file is empty")]
+    Empty,
+    /// It is UTF-16, of which UTF-8 is expected.
+    #[error("a text in UTF-16, not in UTF-8")]
+    Utf16,
     /// It is not UTF-8.
     #[error("byte {offset} is not UTF-8")]
     NotUtf8 {
@@ -80,19 +86,30 @@ impl InputProblem {
             }
             Self::LfsPointer => Format::LfsPointer.remedy().into(),
             Self::OtherFormat { format, .. } => format.remedy().into(),
-            Self::NotUtf8 { .. } => "save the file as text in UTF-8".into(),
+            Self::Empty => "copy or export the file again".into(),
+            Self::Utf16 | Self::NotUtf8 { .. } => "save the file as text in UTF-8".into(),
         }
     }
 }
 
 impl Kind {
+    /// Refuses bytes that hold nothing, where every file of this kind holds something.
+    pub(super) fn check_content(self, bytes: &[u8]) -> Result<(), InputProblem> {
+        let holds = matches!(self, Self::Asset | Self::Hatt | Self::Model | Self::Effects);
+        let is_nothing = |byte: &u8| *byte == 0 || byte.is_ascii_whitespace();
+        if holds && bytes.iter().all(is_nothing) {
+            return Err(InputProblem::Empty);
+        }
+        Ok(())
+    }
+
     /// Refuses a format that a file of this kind cannot have.
     pub(super) fn check(self, found: Option<Format>) -> Result<(), InputProblem> {
         match found {
             Some(Format::LfsPointer) => Err(InputProblem::LfsPointer),
             Some(format) if !self.takes(format) => Err(InputProblem::OtherFormat {
                 format,
-                wanted: self.to_string(),
+                wanted: self.to_string().into(),
             }),
             _ => Ok(()),
         }

@@ -44,11 +44,12 @@ pub fn to_end(reader: impl Read, kind: Kind) -> Result<Vec<u8>, InputProblem> {
 /// Whether these bytes may be those of a file of a kind.
 ///
 /// # Errors
-/// [`InputProblem`] for more bytes than the kind may have, and for those of another [`Format`](super::Format).
+/// [`InputProblem`] for more bytes than the kind may have, for none where it has some, and for those of another [`Format`](super::Format).
 pub fn admit(bytes: &[u8], kind: Kind) -> Result<(), InputProblem> {
     if bytes.len() as u64 > kind.max_bytes() {
         return Err(InputProblem::TooLarge { kind });
     }
+    kind.check_content(bytes)?;
     kind.check(kind.format(bytes))
 }
 
@@ -64,8 +65,14 @@ pub fn read_text(path: &Path, kind: Kind) -> Result<String, InputProblem> {
 /// Bytes as text, without a byte order mark.
 ///
 /// # Errors
-/// [`InputProblem::NotUtf8`].
+/// [`InputProblem::Utf16`] and [`InputProblem::NotUtf8`].
 pub fn text(bytes: &[u8]) -> Result<&str, InputProblem> {
+    // With a mark, or two ASCII characters of two bytes each.
+    let zeros = |first: usize| [first, first + 2].map(|at| bytes.get(at) == Some(&0));
+    let is_wide = (zeros(0) == [true; 2]) != (zeros(1) == [true; 2]);
+    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") || is_wide {
+        return Err(InputProblem::Utf16);
+    }
     let text = std::str::from_utf8(bytes).map_err(|error| InputProblem::NotUtf8 {
         offset: error.valid_up_to(),
     })?;

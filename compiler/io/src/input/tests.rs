@@ -67,10 +67,8 @@ fn a_format_is_told_by_what_is_in_a_file_also_where_it_is_cut_or_damaged() {
         ),
         (b"{\"Version\": 1,\n\"Pattern\": [1 2]}", Some(Format::Ahap)),
         (b"{\"signals\": {\"a\": \"\xc3", Some(Format::Haptic)),
-        (b"{\"version\": 0, \"tracks\": []}", Some(Format::Vij)),
         (b"{\"format\": \"asperity-model\"}", Some(Format::Model)),
         (b"{\"project\": \"signals\"}", None),
-        (b"{\"asset\": {\"version\": \"2.0\",},}", Some(Format::Gltf)),
         (b"<?xml version='1.0'?><modelSet>", Some(Format::Hatt)),
         (b"<modelset>", None),
         (b"[\"Pattern\"]", None),
@@ -87,6 +85,133 @@ fn a_format_is_told_by_what_is_in_a_file_also_where_it_is_cut_or_damaged() {
 }
 
 #[test]
+fn what_nothing_reads_is_named_and_what_is_read_is_not_taken_for_it() {
+    for (bytes, name) in [
+        (&b"{\"version\": 0, \"tracks\": []}"[..], "version 0"),
+        (b"{\"asset\": {\"version\": \"2.0\",},}", "glTF"),
+        (
+            b"<?xml version='1.0'?>\n<!-- a <b> -->\n<vibration-effect>",
+            "Android vibration (XML)",
+        ),
+        (
+            b"<vibration-select><vibration-effect/></vibration-select>",
+            "Android vibration (XML)",
+        ),
+        (
+            b"{\"amplitudes\": [0, 255], \"timings\": [1, 2], \"repeat\": -1}",
+            "waveform",
+        ),
+        (
+            b"{\"actions\": [{\"at\": 0, \"pos\": 1}, {\"at\": 1}]}",
+            "funscript",
+        ),
+        (
+            b"{\"actions\": [{\"name\": \"/actions/a\"}], \"action_sets\": []}",
+            "SteamVR",
+        ),
+        (b"bplist00\xd2", "property list"),
+        (
+            b"<!DOCTYPE plist PUBLIC \"-//Apple\" \"http://x\">\n<plist version=\"1.0\">",
+            "property list",
+        ),
+        (
+            b"%YAML 1.1\n%TAG !u! tag:unity3d.com,2011:\n--- !u!114",
+            "Unity asset",
+        ),
+        (b"fileFormatVersion: 2\nguid: 0", "Unity .meta"),
+        (b"404: Not Found", "server's message"),
+        (b"403 Forbidden\n", "server's message"),
+        (b"HTTP/1.1 502 Bad Gateway\r\n", "server's message"),
+        (
+            b"{\"message\":\"Not Found\",\"documentation_url\":\"x\",\"status\":\"404\"}",
+            "server's message",
+        ),
+        (
+            b"<?xml version=\"1.0\"?><Error><Code>NoSuchKey</Code></Error>",
+            "server's message",
+        ),
+        (b"\n<!-- x --><!DOCTYPE html>", "web page"),
+        (b"<HTML><body>", "web page"),
+        (b"<svg xmlns=\"x\"></svg>", "an XML document"),
+        (b"<?xml version=\"1.0\"?><song/>", "an XML document"),
+        (b"\"{\\n \\\"Version\\\": 1.0}\"", "encoded twice"),
+        (b"[\n {'Version': 1.0", "Python"),
+        (b"MThd\0\0\0\x06", "MIDI"),
+        (b"RIFF\0\0\0\0WEBP", "WebP"),
+        (b"\0\0\0\x20ftypisom", "MP4"),
+        (b"BZh91AY&SY", "bzip2"),
+        (b"\x28\xb5\x2f\xfd", "zstd"),
+    ] {
+        let text = String::from_utf8_lossy(bytes);
+        let found = Format::of(bytes).unwrap_or_else(|| panic!("{text}"));
+        assert!(found.name().contains(name), "{text}: {}", found.name());
+        assert!(!found.remedy().is_empty(), "{text}");
+        let holds_data = ["bzip2", "zstd"].contains(&name);
+        assert_eq!(found.holds_data(), holds_data, "{text}");
+        for kind in [Kind::Asset, Kind::Model, Kind::Scene, Kind::Manifest] {
+            assert!(admit(bytes, kind).is_err(), "{kind}: {text}");
+        }
+    }
+    for text in [
+        "['a key']\nb = 1\n",
+        "\"name\",\"prompt\"\n",
+        "\"[x]\",\"{y}\"\n1,2\n",
+        "<DATE>\t<TIME>\n1\t2\n",
+        "404,1,2\n",
+        "500 Hz, 3\n",
+        "PAR1,PAR2\n1,2\n",
+        "ID3,x\n",
+        "BZh,x\n",
+        "{\"actions\": [1, 2]}",
+        "{\"message\": \"x\"}",
+    ] {
+        assert_eq!(Format::of(text.as_bytes()), None, "{text}");
+    }
+}
+
+#[test]
+fn nothing_is_no_asset_and_no_effect() {
+    for bytes in [&b""[..], b"\n \t", &[0; 512]] {
+        for kind in [Kind::Asset, Kind::Hatt, Kind::Model, Kind::Effects] {
+            let problem = admit(bytes, kind).unwrap_err();
+            assert!(matches!(problem, InputProblem::Empty), "{kind}: {problem}");
+        }
+        assert!(admit(bytes, Kind::Manifest).is_ok());
+    }
+}
+
+#[test]
+fn a_fault_of_json_says_what_other_languages_write() {
+    let value = |text: &str| serde_json::from_str::<serde_json::Value>(text);
+    for (text, what) in [
+        ("{\"a\": NaN}", "NaN at line 1 column 7: JSON has no NaN"),
+        ("{\n\"a\": nan,\n\"b\": 1}", "nan at line 2"),
+        ("[1, Infinity]", "Infinity at line 1"),
+        ("[-Infinity]", "-Infinity at line 1"),
+        ("[1, -inf]", "no infinity"),
+        ("{\"a\": None}", "None at line 1"),
+        ("{\"a\": True, \"b\": 1}", "small letters"),
+        ("[undefined]", "small letters"),
+        ("{\"a\": 'b'}", "double quotes"),
+        ("{\n// a\n\"a\": 1}", "no comments"),
+        ("{\"a\": 1 # b\n}", "no comments"),
+        ("{\"a\": 1 \"b\": 2}", "expected `,` or `}`"),
+        ("{\"a\": yes}", "expected value"),
+        ("[1.]", "invalid number"),
+        ("{\"ä\": x}", "expected value"),
+    ] {
+        let fault = json_fault(text, &value(text).unwrap_err());
+        assert!(fault.contains(what), "{text}: {fault}");
+    }
+    let whole =
+        "{\"a\": 1.0, \"b\": [2.00,], \"c\": 1.05, \"d\": \"1.0,]\", \"e\": 1.0e3, \"f\": -0.0}";
+    let plain =
+        "{\"a\": 1  , \"b\": [2    ], \"c\": 1.05, \"d\": \"1.0,]\", \"e\": 1.0e3, \"f\": -0  }";
+    assert_eq!(lenient_json(whole), plain);
+    assert_eq!(lenient_json("[1., .0]"), "[1., .0]");
+}
+
+#[test]
 fn text_is_utf_8_with_or_without_a_mark() {
     for (bytes, expected) in [
         (b"a = 1".as_slice(), "a = 1"),
@@ -97,6 +222,15 @@ fn text_is_utf_8_with_or_without_a_mark() {
     }
     let problem = text(b"ab\xff").unwrap_err();
     assert_eq!(problem.to_string(), "byte 2 is not UTF-8");
+    for wide in [
+        b"\xff\xfea\0".as_slice(),
+        b"\xfe\xff\0a",
+        b"n\0a\0",
+        b"\0{\0\"",
+    ] {
+        assert!(matches!(text(wide), Err(InputProblem::Utf16)), "{wide:?}");
+    }
+    assert!(text(b"\0\0\0\0").is_ok() && text(b"a\0b").is_ok());
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Why a file cannot be used as a texture.
 
+use super::conversion::Conversion;
 use asperity_formats::FormatError;
 use asperity_io::{
     diagnostic::Diagnostic,
@@ -40,6 +41,9 @@ pub enum TexturesProblem {
     /// Its bytes are not valid.
     #[error(transparent)]
     Format(#[from] FormatError),
+    /// It was an asset or a library before something took it for text.
+    #[error("{0}")]
+    Converted(Conversion),
     /// It is neither an asset nor a library.
     #[error("neither an asset (.asp) nor a library (.aspl)")]
     WrongKind,
@@ -79,6 +83,14 @@ impl Diagnostic for TexturesError {
                 "update asperity, or build the file again with this version".into()
             }
             TexturesProblem::Format(_) => "build the file again from its source".into(),
+            TexturesProblem::Converted(Conversion::Utf16) => {
+                "write it by -o FILE instead of >, or fetch it again".into()
+            }
+            TexturesProblem::Converted(_) => {
+                "fetch it again as it was: transfer it in binary mode, and in git write `*.asp binary` and \
+                 `*.aspl binary` into .gitattributes"
+                    .into()
+            }
             TexturesProblem::WrongKind | TexturesProblem::TooLarge { .. } => {
                 "give a file that `asperity compile`, `build` or `import` wrote".into()
             }

@@ -1,6 +1,9 @@
 //! A library's index in memory: parsed once, when the library is opened.
 
-use asperity_formats::{FormatError, library::LibraryIndex};
+use asperity_formats::{
+    FormatError,
+    library::{Entry, LibraryIndex},
+};
 use std::ops::Range;
 
 /// Where the textures of a library lie.
@@ -16,11 +19,28 @@ pub(super) struct Index {
 }
 
 /// Where one texture lies.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Place {
     pub(super) name: String,
     pub(super) offset: u64,
     pub(super) len: u64,
+    haptic_len: u32,
+}
+
+impl Place {
+    /// Checks what the index states of an asset.
+    ///
+    /// # Errors
+    /// As [`Entry::check`].
+    pub(super) fn check(&self, index: usize, asset: &[u8]) -> Result<(), FormatError> {
+        let entry = Entry {
+            name: &self.name,
+            offset: self.offset,
+            len: self.len as u32,
+            haptic_len: self.haptic_len,
+        };
+        entry.check(index, asset)
+    }
 }
 
 impl Index {
@@ -32,10 +52,11 @@ impl Index {
         let parsed = LibraryIndex::parse(bytes)?;
         #[cfg(test)]
         ENTRIES_READ.with(|read| read.set(read.get() + parsed.len()));
-        let place = |entry: asperity_formats::library::Entry<'_>| Place {
+        let place = |entry: Entry<'_>| Place {
             name: entry.name.to_owned(),
             offset: entry.offset,
             len: u64::from(entry.len),
+            haptic_len: entry.haptic_len,
         };
         Ok(Self {
             version: parsed.version(),

@@ -13,11 +13,13 @@
 //! # Ok::<(), asperity::textures::TexturesError>(())
 //! ```
 
+mod conversion;
 mod error;
 mod index;
 #[cfg(test)]
 pub(crate) mod tests;
 
+pub use conversion::Conversion;
 pub use error::{TexturesError, TexturesProblem};
 #[cfg(test)]
 pub(crate) use index::ENTRIES_READ;
@@ -25,7 +27,7 @@ pub(crate) use index::ENTRIES_READ;
 use asperity_formats::{Asset, FormatError, SceneSurface, library};
 use asperity_io::input::{self, Format, InputProblem, Kind, Opened};
 use asperity_io::shown::suggestion;
-use index::{Index, Place};
+use index::Index;
 use rayon::prelude::*;
 use std::{
     fmt,
@@ -38,7 +40,7 @@ use std::{
 const STANDARD_INPUT: &str = "-";
 
 /// Textures that are in memory together where all are looked at, and their bytes.
-const TOGETHER: usize = 4096;
+const TOGETHER: usize = 512;
 const TOGETHER_BYTES: u64 = 16 << 20;
 /// Leading bytes from which the format of another file is detected.
 const FORMAT_BYTES: u64 = 1 << 20;
@@ -102,11 +104,21 @@ impl Textures {
     }
 
     fn with(path: &Path, bytes: Box<dyn Bytes>) -> Result<Self, TexturesError> {
-        Self::try_with(path, bytes).map_err(|problem| refused(path, problem))
+        let mut bytes = bytes;
+        match Self::content(&mut *bytes) {
+            Ok((content, len)) => Ok(Self {
+                path: path.to_owned(),
+                bytes,
+                len,
+                content,
+            }),
+            Err(problem) => Err(refused(path, explained(problem, &mut *bytes))),
+        }
     }
 
-    fn try_with(path: &Path, mut bytes: Box<dyn Bytes>) -> Result<Self, TexturesProblem> {
-        let head = part(&mut *bytes, 0, library::HEADER_LEN as u64)?;
+    /// What a file is, and its length.
+    fn content(bytes: &mut dyn Bytes) -> Result<(Content, u64), TexturesProblem> {
+        let head = part(bytes, 0, library::HEADER_LEN as u64)?;
         let len = bytes
             .seek(SeekFrom::End(0))
             .map_err(InputProblem::Unreadable)?;
@@ -120,7 +132,7 @@ impl Textures {
                 }
                 .into());
             }
-            let index = part(&mut *bytes, 0, index_len as u64)?;
+            let index = part(bytes, 0, index_len as u64)?;
             let index = Index::parse(&index)?;
             let total = index.total_len;
             if len < total {
@@ -143,7 +155,10 @@ impl Textures {
         } else if head.starts_with(b"ASPT") {
             Content::Asset
         } else {
-            let head = part(&mut *bytes, 0, len.min(FORMAT_BYTES))?;
+            let head = part(bytes, 0, len.min(FORMAT_BYTES))?;
+            if head.is_empty() {
+                return Err(InputProblem::Empty.into());
+            }
             return Err(match Format::of(&head) {
                 Some(format) => TexturesProblem::Input(InputProblem::OtherFormat {
                     format,
@@ -152,12 +167,7 @@ impl Textures {
                 None => TexturesProblem::WrongKind,
             });
         };
-        Ok(Self {
-            path: path.to_owned(),
-            bytes,
-            len,
-            content,
-        })
+        Ok((content, len))
     }
 
     /// The file.
@@ -239,9 +249,8 @@ impl Textures {
     pub fn choose(&mut self, wanted: Option<&str>) -> Result<Vec<u8>, TexturesError> {
         let Some(index) = self.index() else {
             let bytes = self.read(0, self.len, None)?;
-            let name = Asset::parse(&bytes)
-                .map_err(|e| self.error(None, e.into()))?
-                .name();
+            let parsed = Asset::parse(&bytes);
+            let name = parsed.map_err(|e| self.unparsed(e))?.name();
             return match wanted {
                 Some(wanted) if wanted != name && wanted != "0" => {
                     Err(self.no_such_texture(wanted, 1))
@@ -297,27 +306,28 @@ impl Textures {
         }
     }
 
-    /// Bytes of a library's texture at `index`, unchecked. The others are not read.
+    /// Bytes of a library's texture at `index`; only their haptic length is compared with the index. The others are not
+    /// read.
     ///
     /// # Errors
-    /// [`TexturesError`] for an index that is not there, or a failed read.
+    /// [`TexturesError`] for an index that is not there, a failed read, or another haptic length.
     pub fn texture(&mut self, index: usize) -> Result<Vec<u8>, TexturesError> {
         let place = match &self.content {
-            Content::Asset => (index == 0).then_some((0, self.len, None)),
-            Content::Library(library) => {
-                let found = |place: &Place| (place.offset, place.len, Some(place.name.clone()));
-                library.get(index).map(found)
-            }
+            Content::Asset if index == 0 => return self.read(0, self.len, None),
+            Content::Asset => None,
+            Content::Library(library) => library.get(index).cloned(),
         };
-        let Some((offset, len, name)) = place else {
+        let Some(place) = place else {
             return Err(self.no_such_texture(&index.to_string(), index));
         };
-        self.read(offset, len, name.as_deref())
+        let bytes = self.read(place.offset, place.len, Some(&place.name))?;
+        let checked = place.check(index, &bytes);
+        checked.map_err(|e| self.error(Some(&place.name), e.into()))?;
+        Ok(bytes)
     }
 
     /// What `each` finds in every texture, in order, under the name of a library's index or of the
-    /// asset itself. Some at a time are in memory, and are looked at in parallel; `start` makes
-    /// what one thread keeps between them. All of them are checked, and a scene, too.
+    /// asset itself. All of them are checked, and a scene, too.
     ///
     /// # Errors
     /// [`TexturesError`] for a failed read and for the first texture that is damaged.
@@ -326,32 +336,49 @@ impl Textures {
         start: impl Fn() -> S + Sync,
         each: impl Fn(&mut S, &str, &Asset<'_>) -> R + Sync,
     ) -> Result<Vec<R>, TexturesError> {
-        let Some(count) = self.index().map(Index::len) else {
-            let bytes = self.read(0, self.len, None)?;
-            let asset = Asset::parse(&bytes).map_err(|e| self.error(None, e.into()))?;
-            return Ok(vec![each(&mut start(), asset.name(), &asset)]);
-        };
+        let count = self.index().map_or(1, Index::len);
         let mut all = Vec::with_capacity(count);
         while all.len() < count {
-            let (some, bytes) = self.together(all.len())?;
-            let places = self.index().map_or(&[][..], |index| index.places(some));
-            let first = places.first().map_or(0, |place| place.offset);
-            let found: Vec<Result<R, FormatError>> = places
-                .par_iter()
-                .with_min_len(16)
-                .map_init(&start, |kept, place| {
-                    let from = (place.offset - first) as usize;
-                    let bytes = bytes.get(from..from + place.len as usize);
-                    let asset = Asset::parse(bytes.unwrap_or_default())?;
-                    Ok(each(kept, &place.name, &asset))
-                })
-                .collect();
-            for (found, place) in found.into_iter().zip(places) {
-                all.push(found.map_err(|e| self.error(Some(&place.name), e.into()))?);
-            }
+            all.extend(self.each_from(all.len(), &start, &each)?);
         }
         self.surfaces()?;
         Ok(all)
+    }
+
+    /// What `each` finds in some textures, at least one, from the one at `from` on: as many as are in memory together.
+    /// They are looked at in parallel; `start` makes what one thread keeps between them.
+    ///
+    /// # Errors
+    /// As [`each`](Self::each).
+    pub fn each_from<S: Send, R: Send>(
+        &mut self,
+        from: usize,
+        start: impl Fn() -> S + Sync,
+        each: impl Fn(&mut S, &str, &Asset<'_>) -> R + Sync,
+    ) -> Result<Vec<R>, TexturesError> {
+        if !self.is_library() {
+            let bytes = self.read(0, self.len, None)?;
+            let asset = Asset::parse(&bytes).map_err(|e| self.unparsed(e))?;
+            return Ok(vec![each(&mut start(), asset.name(), &asset)]);
+        }
+        let (some, bytes) = self.together(from)?;
+        let places = self.index().map_or(&[][..], |index| index.places(some));
+        let first = places.first().map_or(0, |place| place.offset);
+        let found: Vec<Result<R, FormatError>> = places
+            .par_iter()
+            .enumerate()
+            .with_min_len(16)
+            .map_init(&start, |kept, (n, place)| {
+                let at = (place.offset - first) as usize;
+                let bytes = bytes.get(at..at + place.len as usize).unwrap_or_default();
+                place.check(from + n, bytes)?;
+                Ok(each(kept, &place.name, &Asset::parse(bytes)?))
+            })
+            .collect();
+        let named = found.into_iter().zip(places);
+        named
+            .map(|(found, place)| found.map_err(|e| self.error(Some(&place.name), e.into())))
+            .collect()
     }
 
     /// Neighbouring textures from one on, at least one, and their bytes: they follow each other.
@@ -391,6 +418,12 @@ impl Textures {
         }
     }
 
+    /// An error about an asset that does not parse.
+    fn unparsed(&mut self, error: FormatError) -> TexturesError {
+        let problem = explained(error.into(), &mut *self.bytes);
+        self.error(None, problem)
+    }
+
     fn no_such_texture(&self, wanted: &str, count: usize) -> TexturesError {
         let names = self.names().unwrap_or_default();
         let problem = TexturesProblem::NoSuchTexture {
@@ -408,6 +441,20 @@ fn refused(path: &Path, problem: TexturesProblem) -> TexturesError {
         texture: None,
         problem,
     }
+}
+
+/// The problem of a file, or what was done to its bytes where that is the cause.
+fn explained(problem: TexturesProblem, bytes: &mut dyn Bytes) -> TexturesProblem {
+    let is_damage = match &problem {
+        TexturesProblem::Format(error) => !matches!(error, FormatError::Version { .. }),
+        problem => matches!(problem, TexturesProblem::WrongKind),
+    };
+    let head = if is_damage {
+        part(bytes, 0, FORMAT_BYTES).unwrap_or_default()
+    } else {
+        Vec::new()
+    };
+    Conversion::of(&head).map_or(problem, TexturesProblem::Converted)
 }
 
 /// `len` bytes from `offset` on, or fewer where they end before.

@@ -119,9 +119,14 @@ fn other_and_damaged_files_are_refused() {
         textures.choose(None).map_err(problem)
     };
     assert!(open(&asset).is_ok() && open(&library).is_ok());
-    for bytes in [b"".as_slice(), b"ASP", b"<?xml version"] {
+    for bytes in [b"ASP".as_slice(), b"<?xml version"] {
         assert!(matches!(open(bytes), Err(TexturesProblem::WrongKind)));
     }
+    let empty = open(b"");
+    assert!(matches!(
+        empty,
+        Err(TexturesProblem::Input(InputProblem::Empty))
+    ));
     for len in [4, 20, 27, 40, 100, library.len() - 1] {
         assert!(matches!(
             open(&library[..len]),
@@ -229,6 +234,33 @@ fn each_texture_is_looked_at_once_in_order() {
     assert_eq!(damaged.texture.as_ref(), names.get(TOGETHER + 1));
     fs::write(&path, &asset).unwrap();
     assert_eq!(look().unwrap(), [("Built-in Grit".to_owned(), asset.len())]);
+}
+
+/// An index whose haptic length is not the asset's is refused however the texture is asked for.
+#[test]
+fn a_haptic_length_of_the_index_that_is_wrong_is_refused_by_every_reader() {
+    let asset = lower(&builtin::texture(), None).unwrap().bytes;
+    let mut bytes = library_of(&["a".into(), "b".into()], &asset);
+    // The second entry's; the checksum covers the first 24 bytes and all from 28 on.
+    let at = library::HEADER_LEN + 24 + 12;
+    bytes[at] ^= 1;
+    let end = library::index_len(&bytes).unwrap();
+    let sum = crc32fast::hash(&[&bytes[..24], &bytes[28..end]].concat());
+    bytes[24..28].copy_from_slice(&sum.to_le_bytes());
+    let mut textures = Textures::from_bytes(Path::new("x"), bytes.clone()).unwrap();
+    assert!(textures.choose(Some("a")).is_ok());
+    let names = |(): &mut (), name: &str, _: &Asset<'_>| name.to_owned();
+    for refused in [
+        textures.choose(Some("b")).map(drop),
+        textures.texture(1).map(drop),
+        textures.library().map(drop),
+        textures.each(|| (), names).map(drop),
+    ] {
+        let error = refused.unwrap_err();
+        assert_eq!(error.texture.as_deref(), Some("b"));
+        let text = error.to_string();
+        assert!(text.contains("haptic_len[1]"), "{text}");
+    }
 }
 
 /// Claim: a library gives its own bytes and says whether it has a scene; an asset is no library.

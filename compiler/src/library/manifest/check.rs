@@ -15,7 +15,7 @@ use crate::{
 use asperity_formats::limits::MAX_NAME_BYTES;
 use asperity_io::input::InputProblem;
 use asperity_io::shown::suggestion;
-use std::{fs, io, path::PathBuf, sync::Arc};
+use std::{borrow::Cow, fs, io, path::PathBuf, sync::Arc};
 
 /// Keys of what a texture is made of, where those are other textures.
 const OTHERS: [&str; 3] = ["of", "blend", "compose"];
@@ -28,6 +28,16 @@ const SETUP: [&str; 3] = ["model", "text_encoder", "backend"];
 pub(super) fn is_key(key: &str, registry: &Registry) -> bool {
     let own = key.split('.').next().unwrap_or(key);
     OWN.contains(&own) || is_origin(own, registry) || OPTIONS.contains(&own)
+}
+
+/// A key as it is written here: those of spreadsheets begin with a capital.
+pub(super) fn own_key<'k>(key: &'k str, registry: &Registry) -> Cow<'k, str> {
+    let small = key.to_ascii_lowercase();
+    if !is_key(key, registry) && is_key(&small, registry) {
+        small.into()
+    } else {
+        key.into()
+    }
 }
 
 fn is_origin(key: &str, registry: &Registry) -> bool {
@@ -184,7 +194,24 @@ impl Checker<'_> {
             self.fault(line, "name", ManifestProblem::Name(name));
             return None;
         }
+        // NA and None may be names; these are what scripts print.
+        let is_printed = ["nan", "null", "undefined"].contains(&name.to_lowercase().as_str());
+        if is_printed || is_error(&name) {
+            return self.nothing(line, "name", "name", &name);
+        }
         Some(name)
+    }
+
+    fn nothing<T>(
+        &mut self,
+        line: usize,
+        key: &str,
+        wanted: &'static str,
+        text: &str,
+    ) -> Option<T> {
+        let text = text.to_owned();
+        self.fault(line, key, ManifestProblem::Nothing { text, wanted });
+        None
     }
 
     /// Whether a key that is none is spelt much like one of what a texture is made of.
@@ -220,6 +247,9 @@ impl Checker<'_> {
     ) -> Option<DraftOrigin> {
         let key = kind.key;
         let text = self.text(field, key)?;
+        if kind.operand == Operand::Text && is_nothing(text) {
+            return self.nothing(field.line, key, "prompt", text);
+        }
         let mut texture = None;
         if let Some(field) = row.fields.iter().find(|field| field.key == "texture") {
             texture = Some(self.text(field, "texture")?);
@@ -449,6 +479,60 @@ fn options(stated: &Stated, of: &GoesWith) -> Options {
             .filter(|_| takes("edit"))
             .unwrap_or_default(),
     }
+}
+
+/// Whether a text is what spreadsheets, databases and scripts write for a cell without a value, or for one with an error.
+fn is_nothing(text: &str) -> bool {
+    const WORDS: [&str; 18] = [
+        "na",
+        "nd",
+        "nan",
+        "nat",
+        "nil",
+        "none",
+        "null",
+        "undefined",
+        "missing",
+        "nb",
+        "it",
+        "nv",
+        "na na",
+        "n",
+        "blank",
+        "1#ind",
+        "1#qnan",
+        "1#inf",
+    ];
+    // Words that are prompts unless marks stand around them.
+    const MARKED: [&str; 5] = ["n", "nb", "it", "nv", "blank"];
+    let small = text.trim().to_lowercase();
+    let core = small.trim_matches(is_mark).replace(['.', '/'], "");
+    is_error(text)
+        || core.is_empty()
+        || WORDS.contains(&core.as_str()) && (core != small || !MARKED.contains(&core.as_str()))
+}
+
+/// Whether a character is neither of a word nor a picture.
+fn is_mark(c: char) -> bool {
+    !c.is_alphanumeric() && c < '\u{2190}' || matches!(c, 'ー' | '\u{ff01}'..='\u{ff0f}')
+}
+
+/// Whether a text is the error of a spreadsheet's formula: Excel has them in every language, as #REF!, #BEZUG!, #YOK
+/// and #¿NOMBRE?; LibreOffice numbers some.
+fn is_error(text: &str) -> bool {
+    let text = text.trim();
+    let numbered = |name: &&str| {
+        let rest = text
+            .get(..name.len())
+            .filter(|head| head.eq_ignore_ascii_case(name));
+        let number = rest.and_then(|_| text[name.len()..].trim_start().strip_prefix(':'));
+        number.is_some_and(|number| number.trim().parse::<u16>().is_ok())
+    };
+    let is_plain = |c: char| c.is_lowercase() || c.is_ascii_digit();
+    text.strip_prefix(['#', '＃']).is_some_and(|rest| {
+        !rest.contains(is_plain) && rest.contains(char::is_alphabetic)
+            || rest.ends_with(['!', '?']) && !rest.contains(' ')
+    }) || ["Err", "Fehler", "Erreur", "Errore"].iter().any(numbered)
 }
 
 /// What a prompt begins with, as a name.

@@ -3,7 +3,7 @@
 
 use super::{
     cells::{Broken, Record, Records},
-    check::is_key,
+    check::{is_key, own_key},
     row::{MAX_ROWS, Row, Sheet, Value, put},
 };
 use crate::sources::Registry;
@@ -38,8 +38,10 @@ pub(super) fn parse(text: &str, registry: &Registry) -> Result<Sheet, Broken> {
 /// The keys of the columns; a column without a name has an empty one.
 fn keys(header: Record, registry: &Registry) -> Result<Vec<String>, Broken> {
     let line = header.line;
-    let cells = header.cells.iter().map(|cell| cell.trim().to_owned());
-    let keys: Vec<String> = cells.collect();
+    let cells = header.cells.iter();
+    let keys: Vec<String> = cells
+        .map(|cell| own_key(cell.trim(), registry).into_owned())
+        .collect();
     if keys.len() > MAX_COLUMNS {
         let message = format!("{} columns, {MAX_COLUMNS} at most", keys.len());
         return Err((line, message));
@@ -128,6 +130,7 @@ mod tests {
             "name\tprompt\r\noak\trough oak\r\n\t\r\nice\twet ice",
             "name,prompt,,\noak,rough oak,,\nice,wet ice,,,,,\n,,,\n",
             "sep=;\nname;prompt\noak;rough oak\nice;wet ice\n",
+            "Name,PROMPT\noak,rough oak\nice,wet ice\n",
         ] {
             assert_eq!(names(&parse(text).unwrap()), names(&plain), "{text:?}");
         }
@@ -153,6 +156,11 @@ mod tests {
                 "name,prompt,prompt\nx,y,z\n",
                 1,
                 "columns 2 and 3 are both called \"prompt\"",
+            ),
+            (
+                "Prompt,name,prompt\nx,y,z\n",
+                1,
+                "columns 1 and 3 are both called \"prompt\"",
             ),
             ("name|prompt\nx|y\n", 1, "no column of a texture"),
             ("name,prompt\nx,\"y\nz,w\n", 2, "never closed"),

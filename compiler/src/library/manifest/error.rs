@@ -104,6 +104,16 @@ pub enum ManifestProblem {
         /// What there is.
         known: String,
     },
+    /// A text that stands for none.
+    #[error(
+        "{text:?} is no {wanted}, but what a table has for a cell without a value, or with an error"
+    )]
+    Nothing {
+        /// The text.
+        text: String,
+        /// What it should be.
+        wanted: &'static str,
+    },
     /// What the source says of its value.
     #[error("{0}")]
     Source(Failure),
@@ -187,6 +197,9 @@ impl Diagnostic for ManifestError {
                 "correct the value".into()
             }
             ManifestProblem::Name(_) => "choose another name".into(),
+            ManifestProblem::Nothing { wanted, .. } => {
+                format!("write a {wanted}, or remove the row")
+            }
             ManifestProblem::Origin { .. } => "give every texture exactly one source".into(),
             ManifestProblem::Source(failure) => failure.remedy(),
             ManifestProblem::Misplaced { .. } => "remove the key".into(),

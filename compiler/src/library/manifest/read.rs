@@ -306,7 +306,7 @@ impl Reader {
                 .map_err(|(line, message)| fault(line, message))
                 .ok(),
             Some(Syntax::JsonLines) => {
-                let (sheet, wrong) = json_file::parse(text);
+                let (sheet, wrong) = json_file::parse(text, &self.registry);
                 wrong
                     .into_iter()
                     .for_each(|(line, message)| fault(line, message));

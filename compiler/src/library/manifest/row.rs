@@ -28,6 +28,61 @@ impl Value {
     }
 }
 
+impl Value {
+    /// The whole number, 0 or more, that it is, however that is written; a text counts where the syntax has no other
+    /// values. Beyond 2⁵³ only digits are exact.
+    pub(super) fn whole(&self, untyped: bool) -> Option<u64> {
+        const EXACT: f64 = (1_u64 << 53) as f64;
+        let number = match self {
+            Self::Whole(whole) => return Some(*whole),
+            Self::Number(number) => *number,
+            Self::Text(text) if untyped => match text.trim().parse() {
+                Ok(whole) => return Some(whole),
+                // 1.000 may be one or a thousand.
+                Err(_) if grouped(text.trim()) || rounded(text.trim()) => return None,
+                Err(_) => text.trim().parse().ok()?,
+            },
+            _ => return None,
+        };
+        ((0.0..EXACT).contains(&number) && number.fract() == 0.0).then_some(number as u64)
+    }
+
+    /// The value as an error repeats it.
+    pub(super) fn shown(&self) -> String {
+        match self {
+            Self::Text(text) => text.clone(),
+            Self::Number(number) => format!("{number:?}"),
+            Self::Whole(whole) => whole.to_string(),
+            other => other.kind().to_owned(),
+        }
+    }
+}
+
+/// Whether digits are grouped by threes with points: 1.000, 12.500.000.
+fn grouped(text: &str) -> bool {
+    let digits = text.trim_start_matches(['+', '-']);
+    let mut groups = digits.split('.');
+    let first = groups.next().unwrap_or_default();
+    let is_number = |group: &str| group.bytes().all(|b| b.is_ascii_digit());
+    (1..=3).contains(&first.len())
+        && !first.starts_with('0')
+        && digits.contains('.')
+        && is_number(first)
+        && groups.all(|group| group.len() == 3 && is_number(group))
+}
+
+/// Whether a spreadsheet showed a number with fewer digits than it has: 1.23457E+11.
+fn rounded(text: &str) -> bool {
+    let parts = text.split_once(['e', 'E']);
+    parts.is_some_and(|(digits, exponent)| {
+        let decimals = digits
+            .split_once('.')
+            .map_or(0, |(_, decimals)| decimals.len());
+        let exponent = exponent.parse::<usize>().unwrap_or(0);
+        decimals > 0 && exponent > decimals
+    })
+}
+
 /// A key with its value. An item of a list has its index as key.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Field {

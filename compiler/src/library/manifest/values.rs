@@ -130,57 +130,53 @@ impl Checker<'_> {
         let number = match &field.value {
             Value::Number(number) => *number,
             Value::Whole(number) => *number as f64,
-            Value::Text(text) if untyped => match text.trim().parse() {
-                Ok(number) => number,
-                Err(_) => return self.wrong_type(field.line, key, "a number", &field.value),
-            },
+            // A text that is none is a NaN, which is in no range.
+            Value::Text(text) if untyped => text.trim().parse().unwrap_or(f64::NAN),
             other => return self.wrong_type(field.line, key, "a number", other),
         };
-        // A NaN is in no range.
         if (low..=high).contains(&number) {
             Some(number)
         } else {
-            let wanted = format!("a number from {low} to {high}");
-            self.wrong_value(field.line, key, wanted, number.to_string())
+            let wanted = format!("a number from {low} to {high}, with a point before its fraction");
+            self.wrong_value(field.line, key, wanted, field.value.shown())
         }
     }
 
+    /// A whole number, also where it is written as 3.0 or 1E+05.
     fn whole(&mut self, field: &Field, key: &str, untyped: bool) -> Option<u64> {
         const WANTED: &str = "a whole number, 0 or more";
         match &field.value {
-            Value::Whole(number) => Some(*number),
-            Value::Text(text) if untyped => match text.trim().parse() {
-                Ok(number) => Some(number),
-                Err(_) => self.wrong_value(field.line, key, WANTED.into(), text.clone()),
-            },
-            other => self.wrong_type(field.line, key, WANTED, other),
+            Value::Whole(_) | Value::Number(_) => {}
+            Value::Text(_) if untyped => {}
+            other => return self.wrong_type(field.line, key, WANTED, other),
         }
+        field.value.whole(untyped).or_else(|| {
+            let wanted = format!("{WANTED}, in digits alone, such as 1000");
+            self.wrong_value(field.line, key, wanted, field.value.shown())
+        })
     }
 
     /// `false` for 0 pixels, `true` for the usual size, or a size.
     fn preview(&mut self, field: &Field, untyped: bool) -> Option<u32> {
-        let size = match &field.value {
+        let is = |text: &str, word: &str| untyped && text.trim().eq_ignore_ascii_case(word);
+        match &field.value {
             Value::Bool(drawn) => return Some(if *drawn { preview::SIZE } else { 0 }),
             // Spreadsheets write them in capitals.
-            Value::Text(text) if untyped && text.eq_ignore_ascii_case("true") => {
-                return Some(preview::SIZE);
-            }
-            Value::Text(text) if untyped && text.eq_ignore_ascii_case("false") => return Some(0),
-            Value::Whole(size) => Some(*size),
-            Value::Text(text) if untyped => text.trim().parse().ok(),
+            Value::Text(text) if is(text, "true") => return Some(preview::SIZE),
+            Value::Text(text) if is(text, "false") => return Some(0),
+            Value::Whole(_) | Value::Number(_) => {}
+            Value::Text(_) if untyped => {}
             other => return self.wrong_type(field.line, "preview", PREVIEW, other),
-        };
-        let size = size.and_then(|size| u32::try_from(size).ok());
+        }
+        let size = field
+            .value
+            .whole(untyped)
+            .and_then(|size| u32::try_from(size).ok());
         let drawn = size.filter(|size| preview::SIZES.contains(size));
         drawn.or_else(|| {
             let (low, high) = (preview::SIZES.start(), preview::SIZES.end());
             let wanted = format!("{PREVIEW} of {low} to {high} pixels");
-            let found = match &field.value {
-                Value::Whole(size) => size.to_string(),
-                Value::Text(text) => text.clone(),
-                other => other.kind().to_owned(),
-            };
-            self.wrong_value(field.line, "preview", wanted, found)
+            self.wrong_value(field.line, "preview", wanted, field.value.shown())
         })
     }
 
@@ -198,7 +194,7 @@ impl Checker<'_> {
         let key = field.key.as_str();
         match key {
             "seed" => stated.seed = self.whole(field, key, untyped),
-            "fidelity" => stated.fidelity = self.fidelity(field),
+            "fidelity" => stated.fidelity = self.fidelity(field, untyped),
             "rate" => {
                 stated.rate_hz = self.number(field, key, rerate::RATE_RANGE_HZ, untyped);
             }
@@ -212,11 +208,12 @@ impl Checker<'_> {
         true
     }
 
-    fn fidelity(&mut self, field: &Field) -> Option<Fidelity> {
-        let text = match &field.value {
-            Value::Text(text) => text.clone(),
-            Value::Whole(order) => order.to_string(),
-            other => {
+    fn fidelity(&mut self, field: &Field, untyped: bool) -> Option<Fidelity> {
+        let text = match (field.value.whole(untyped), &field.value) {
+            (Some(order), _) => order.to_string(),
+            (None, Value::Text(text)) => text.trim().to_owned(),
+            (None, Value::Number(number)) => number.to_string(),
+            (None, other) => {
                 return self.wrong_type(field.line, "fidelity", "full, auto or an order", other);
             }
         };

@@ -281,7 +281,7 @@ fn every_malformed_field_is_refused_with_its_line() {
 #[test]
 fn files_of_another_kind_are_refused() {
     for (text, expected) in [
-        ("", "not well-formed"),
+        ("", "the file is empty"),
         ("speed,force\n1,2\n", "not well-formed"),
         ("<svg></svg>", "root element is <svg>"),
         ("<modelSet></modelSet>", "<AccelUnits> is missing"),

@@ -50,6 +50,7 @@ struct Head {
 /// The JSON path of the first field at fault, and what is wrong with it.
 pub fn from_json(bytes: &[u8]) -> Result<TextureModel, (String, ModelFileProblem)> {
     let text = input::text(bytes).map_err(|e| (String::new(), e.into()))?;
+    let text = &*input::lenient_json(text);
     let head: Head = parsed(text)?;
     let stated = |value: Option<Value>| value.map_or("absent".into(), |value| value.to_string());
     if head.format != Some(FORMAT.into()) {
@@ -70,10 +71,8 @@ fn parsed<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
         // What cannot be parsed has no name within its object; a single dot is the file as a whole.
         let path = error.path().to_string();
         let field = path.trim_end_matches('?').trim_end_matches('.');
-        (
-            field.to_owned(),
-            ModelFileProblem::Json(error.inner().to_string()),
-        )
+        let fault = input::json_fault(text, error.inner());
+        (field.to_owned(), ModelFileProblem::Json(fault))
     })?;
     let trailing = |e: serde_json::Error| (String::new(), ModelFileProblem::Json(e.to_string()));
     json.end().map_err(trailing)?;

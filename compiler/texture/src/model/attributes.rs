@@ -43,7 +43,10 @@
 //! ```
 
 use crate::{
-    model::{ModelGrid, TapBank, TextureModel, mesh, mixture::Field},
+    model::{
+        ModelGrid, TapBank, TextureModel, mesh,
+        mixture::{Field, Place},
+    },
     signal::spectrum::{TraceBand, Vibration, VibrationBand},
 };
 use serde::Serialize;
@@ -91,6 +94,14 @@ pub fn stroke(grid: &ModelGrid) -> (f64, f64) {
     (SPEED_MM_S.min(max_speed_mm_s), FORCE_N.min(max_force_n))
 }
 
+/// The triangle of a grid at its [stated stroke](stroke), and the weights there.
+#[must_use]
+pub fn place(grid: &ModelGrid) -> Option<Place> {
+    let (speed_mm_s, force_n) = stroke(grid);
+    // Where a query lies takes no cosines.
+    Field::with_cosines(grid, &[]).locate(speed_mm_s, force_n)
+}
+
 /// The attributes of a texture.
 #[must_use]
 pub fn of(texture: &TextureModel) -> Attributes {
@@ -124,10 +135,17 @@ impl Meter {
             self.vibration = Some((rate_hz, VibrationBand::new(rate_hz)));
         }
         let (_, band) = self.vibration.as_ref()?;
-        let field = Field::new(grid);
-        let (speed_mm_s, force_n) = stroke(grid);
-        let place = field.locate(speed_mm_s, force_n)?;
-        band.as_ref()?.vibration(&field.model(&place))
+        let place = place(grid)?;
+        // The cosines of the three models that are mixed, and of no other one.
+        let around = ModelGrid {
+            vertices: place.vertices.map(|v| grid.vertices[v].clone()).into(),
+            triangles: Vec::new(),
+            ..*grid
+        };
+        let weights = place.weights;
+        let vertices = [0, 1, 2];
+        let model = Field::new(&around).model(&Place { vertices, weights });
+        band.as_ref()?.vibration(&model)
     }
 
     /// The centroid of a bank's fastest trace, Hz; `None` without one, or at too low a rate.

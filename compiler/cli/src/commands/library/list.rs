@@ -6,7 +6,7 @@ use asperity::{
     edit::remembered,
     edit_memory::History,
     learned::Certainty,
-    raise::raise,
+    raise::attributes,
     textures::Textures,
 };
 use asperity_console::Console;
@@ -22,12 +22,12 @@ pub(crate) fn run(args: &List, console: Console) -> Result<(), Failures> {
     let mut textures = Textures::open(&args.file).map_err(one)?;
     let printed = if args.json {
         let rows = textures.each(Meter::default, |meter, name, asset| {
-            in_json(name, asset, &meter.of(&raise(asset)))
+            in_json(name, asset, &attributes(asset, meter))
         });
         console.json(&json!({ "textures": Value::from(rows.map_err(one)?) }))
     } else {
         let rows = textures.each(Meter::default, |meter, name, asset| {
-            line(name, asset, &meter.of(&raise(asset)))
+            line(name, asset, &attributes(asset, meter))
         });
         let rows = rows.map_err(one)?;
         let count = counted(rows.len(), "texture", "textures");
