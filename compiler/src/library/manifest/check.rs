@@ -483,9 +483,11 @@ fn options(stated: &Stated, of: &GoesWith) -> Options {
 
 /// Whether a text is what spreadsheets, databases and scripts write for a cell without a value, or for one with an error.
 fn is_nothing(text: &str) -> bool {
-    const WORDS: [&str; 18] = [
+    const WORDS: [&str; 16] = [
         "na",
-        "nd",
+        "n/a",
+        "n/d",
+        "n/a n/a",
         "nan",
         "nat",
         "nil",
@@ -493,20 +495,16 @@ fn is_nothing(text: &str) -> bool {
         "null",
         "undefined",
         "missing",
-        "nb",
-        "it",
-        "nv",
-        "na na",
-        "n",
-        "blank",
         "1#ind",
         "1#qnan",
         "1#inf",
+        "n",
+        "blank",
     ];
     // Words that are prompts unless marks stand around them.
-    const MARKED: [&str; 5] = ["n", "nb", "it", "nv", "blank"];
+    const MARKED: [&str; 2] = ["n", "blank"];
     let small = text.trim().to_lowercase();
-    let core = small.trim_matches(is_mark).replace(['.', '/'], "");
+    let core = small.trim_matches(is_mark).replace('.', "");
     is_error(text)
         || core.is_empty()
         || WORDS.contains(&core.as_str()) && (core != small || !MARKED.contains(&core.as_str()))
