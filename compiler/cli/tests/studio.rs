@@ -9,16 +9,16 @@ use std::{
 };
 
 /// A studio that runs; it is killed where a test fails.
-struct Running {
+pub(crate) struct Running {
     child: Child,
     /// `127.0.0.1:PORT`
-    host: String,
+    pub(crate) host: String,
     /// `/TOKEN/`
-    page: String,
+    pub(crate) page: String,
 }
 
 impl Running {
-    fn start(folder: &Path, arguments: &[&str]) -> Self {
+    pub(crate) fn start(folder: &Path, arguments: &[&str]) -> Self {
         let mut child = Command::new(env!("CARGO_BIN_EXE_asperity"))
             .args([&["studio", "--no-open"], arguments].concat())
             .current_dir(folder)
@@ -38,20 +38,24 @@ impl Running {
         }
     }
 
+    /// The answer to these bytes, with its head.
+    pub(crate) fn send(&self, request: &str) -> Vec<u8> {
+        let mut stream = TcpStream::connect(&self.host).expect("it listens");
+        stream.write_all(request.as_bytes()).expect("it reads");
+        let mut answer = Vec::new();
+        stream.read_to_end(&mut answer).expect("an answer");
+        answer
+    }
+
     /// The body of a good answer.
     fn ask(&self, request: &str, body: &str) -> Vec<u8> {
         let (method, path) = request.split_once(' ').expect("a method and a path");
-        let mut stream = TcpStream::connect(&self.host).expect("it listens");
-        write!(
-            stream,
+        let mut answer = self.send(&format!(
             "{method} {}{path} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\nContent-Length: {}\r\n\r\n{body}",
             self.page,
             self.host,
             body.len()
-        )
-        .expect("it reads");
-        let mut answer = Vec::new();
-        stream.read_to_end(&mut answer).expect("an answer");
+        ));
         assert!(answer.starts_with(b"HTTP/1.1 200 "), "{}", text(&answer));
         let end = answer.windows(4).position(|four| four == b"\r\n\r\n");
         answer.split_off(end.expect("a head") + 4)

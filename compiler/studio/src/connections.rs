@@ -1,7 +1,9 @@
-//! The connections that are open: at most so many, and a silent one makes room for a new one.
+//! Open connections. Those that have shown the token hold the user's places. All others share as few, whatever they do:
+//! one of them is shut for each that is new.
 //!
-//! A page of any site can open hundreds of sockets here and keep silent on them. If those who wait were only counted,
-//! they would shut the user out for as long as they like.
+//! A page of any site can open hundreds of sockets here, and keep silent on them, send bodies without end or read no
+//! answer. None of that may shut the user out. A new connection of the user's goes only where 64 others come before its
+//! head is read; a last answer may be lost where strangers fill their room.
 
 use std::{
     collections::BTreeMap,
@@ -10,14 +12,17 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// How long a new connection waits for the room of one that was shut.
-const ROOM_SOON: Duration = Duration::from_millis(100);
+/// Connections at once that hold no place of the user's.
+const STRANGERS: usize = 64;
+/// How long the room of one that was shut is waited for; its thread ends at once where it gets a processor.
+const ROOM_SOON: Duration = Duration::from_secs(1);
 
 /// Connections by number.
 pub(crate) struct Connections {
+    /// The user's places.
     most: usize,
     open: Mutex<Open>,
-    left: Condvar,
+    changed: Condvar,
 }
 
 #[derive(Default)]
@@ -28,48 +33,48 @@ struct Open {
 
 struct Connection {
     stream: Arc<TcpStream>,
-    /// Since when it waits for a request; `None` while one is answered.
-    silent_since: Option<Instant>,
-    /// Whether it has shown the token.
+    stage: Stage,
+    /// Whether it holds a place of the user's.
     trusted: bool,
 }
 
-/// A connection's place, which it gives back when it is dropped.
+/// In the order in which connections make room.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Stage {
+    /// It has its last answer.
+    Lingers,
+    /// It waits for a request since then.
+    Silent(Instant),
+    /// A request is answered; it makes no room.
+    Works,
+    /// It was shut, and its thread ends.
+    Shut,
+}
+
+/// An open connection, which is forgotten when this is dropped.
 pub(crate) struct Place {
     all: Arc<Connections>,
     number: u64,
 }
 
 impl Connections {
+    /// No connection yet, with so many places for the user.
     pub(crate) fn new(most: usize) -> Arc<Self> {
         Arc::new(Self {
             most,
             open: Mutex::default(),
-            left: Condvar::new(),
+            changed: Condvar::new(),
         })
     }
 
-    /// A place for a connection. Where all are taken, the one that has been silent for longest is shut, and among those
-    /// that have not shown the token, if there are any. `None` where none is silent.
+    /// Admits a connection among the strangers. `None` where those that were shut for it do not end.
     pub(crate) fn admit(self: &Arc<Self>, stream: &Arc<TcpStream>) -> Option<Place> {
-        let mut open = self.lock();
-        if open.connections.len() >= self.most {
-            open.longest_silent()?.shut();
-            let full = |open: &mut Open| open.connections.len() >= self.most;
-            let (after, _) = self
-                .left
-                .wait_timeout_while(open, ROOM_SOON, full)
-                .unwrap_or_else(PoisonError::into_inner);
-            open = after;
-            if open.connections.len() >= self.most {
-                return None;
-            }
-        }
+        let mut open = self.room(false, STRANGERS - 1)?;
         let number = open.next;
         open.next += 1;
         let connection = Connection {
             stream: Arc::clone(stream),
-            silent_since: Some(Instant::now()),
+            stage: Stage::Silent(Instant::now()),
             trusted: false,
         };
         open.connections.insert(number, connection);
@@ -79,55 +84,102 @@ impl Connections {
         })
     }
 
+    /// Waits until at most so many connections hold a place of the user's, or hold none, and shuts others for that, one
+    /// after another. `None` where they work on.
+    fn room(&self, trusted: bool, most: usize) -> Option<MutexGuard<'_, Open>> {
+        let until = Instant::now() + ROOM_SOON;
+        let mut open = self.lock();
+        while open.of(trusted).count() > most {
+            if !open.of(trusted).any(|c| c.stage == Stage::Shut)
+                && let Some(first) = open.of(trusted).min_by_key(|c| c.stage)
+            {
+                first.shut();
+            }
+            let left = until.checked_duration_since(Instant::now())?;
+            let woken = self.changed.wait_timeout(open, left);
+            (open, _) = woken.unwrap_or_else(PoisonError::into_inner);
+        }
+        Some(open)
+    }
+
     fn lock(&self) -> MutexGuard<'_, Open> {
         self.open.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 impl Open {
-    fn longest_silent(&mut self) -> Option<&mut Connection> {
-        let silent = |c: &&mut Connection| c.silent_since.is_some();
-        let connections = self.connections.values_mut().filter(silent);
-        connections.min_by_key(|c| (c.trusted, c.silent_since))
+    fn of(&mut self, trusted: bool) -> impl Iterator<Item = &mut Connection> {
+        let connections = self.connections.values_mut();
+        connections.filter(move |connection| connection.trusted == trusted)
     }
 }
 
 impl Connection {
-    /// Ends the read that its thread waits in. It is not chosen again.
+    /// Ends the read that its thread waits in, unless it works.
     fn shut(&mut self) {
-        self.silent_since = None;
-        // One that is closed already has made room.
-        let _ = self.stream.shutdown(Shutdown::Both);
+        if self.stage < Stage::Works {
+            self.stage = Stage::Shut;
+            // One that is closed already has made room.
+            let _ = self.stream.shutdown(Shutdown::Both);
+        }
     }
 }
 
 impl Place {
-    /// The connection waits for a request from now on.
-    pub(crate) fn waits(&self) {
-        self.change(|connection| connection.silent_since = Some(Instant::now()));
-    }
-
-    /// A request has come, and is answered.
-    pub(crate) fn works(&self) {
-        self.change(|connection| connection.silent_since = None);
-    }
-
-    /// It has shown the token.
-    pub(crate) fn is_trusted(&self) {
-        self.change(|connection| connection.trusted = true);
-    }
-
-    fn change(&self, change: impl FnOnce(&mut Connection)) {
-        if let Some(connection) = self.all.lock().connections.get_mut(&self.number) {
-            change(connection);
+    /// The connection has shown the token, and its request is answered from now on. `false` where all places of the user
+    /// are at work.
+    pub(crate) fn enter(&self) -> bool {
+        let entered = |connection: &mut Connection| {
+            let is_open = connection.stage != Stage::Shut;
+            if is_open {
+                connection.stage = Stage::Works;
+            }
+            (is_open, connection.trusted)
+        };
+        match self.change(self.all.lock(), entered) {
+            // It made room for another before its head was read.
+            (false, _) => return false,
+            (true, true) => return true,
+            (true, false) => {}
         }
+        let Some(open) = self.all.room(true, self.all.most.saturating_sub(1)) else {
+            return false;
+        };
+        self.change(open, |connection| connection.trusted = true);
+        true
+    }
+
+    /// It waits for the next request from now on.
+    pub(crate) fn wait(&self) {
+        let silent = Stage::Silent(Instant::now());
+        self.change(self.all.lock(), |connection| connection.stage = silent);
+    }
+
+    /// It gets no further request, and gives the user's place back.
+    pub(crate) fn linger(&self) {
+        self.change(self.all.lock(), |connection| {
+            if connection.stage != Stage::Shut {
+                connection.stage = Stage::Lingers;
+            }
+            connection.trusted = false;
+        });
+    }
+
+    fn change<T: Default>(
+        &self,
+        mut open: MutexGuard<'_, Open>,
+        change: impl FnOnce(&mut Connection) -> T,
+    ) -> T {
+        self.all.changed.notify_all();
+        let connection = open.connections.get_mut(&self.number);
+        connection.map(change).unwrap_or_default()
     }
 }
 
 impl Drop for Place {
     fn drop(&mut self) {
         self.all.lock().connections.remove(&self.number);
-        self.all.left.notify_all();
+        self.all.changed.notify_all();
     }
 }
 
@@ -137,46 +189,72 @@ mod tests {
     use std::{io::Read as _, net::TcpListener, thread};
 
     /// A connection whose thread reads until it is shut, as those of the server do.
-    struct Silent {
+    struct Reading {
         _client: TcpStream,
         place: Arc<Place>,
     }
 
-    fn connect(listener: &TcpListener, all: &Arc<Connections>) -> Option<Silent> {
+    fn connect(listener: &TcpListener, all: &Arc<Connections>) -> Reading {
         let client = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
         let stream = Arc::new(listener.accept().unwrap().0);
-        let place = Arc::new(all.admit(&stream)?);
-        let held = Arc::clone(&place);
+        let place = all.admit(&stream).expect("strangers make room");
+        let place = Arc::new(place);
+        let held = Arc::downgrade(&place);
         thread::spawn(move || {
             let _ = (&*stream).read(&mut [0]);
-            drop(held);
+            // Its place is given back here, as in the server.
+            if let Some(place) = held.upgrade() {
+                place.all.lock().connections.remove(&place.number);
+                place.all.changed.notify_all();
+            }
         });
-        Some(Silent {
+        Reading {
             _client: client,
             place,
-        })
+        }
+    }
+
+    fn open(all: &Connections) -> Vec<u64> {
+        all.lock().connections.keys().copied().collect()
     }
 
     #[test]
-    fn the_longest_silent_stranger_makes_room_and_those_at_work_stay() {
+    fn the_longest_silent_makes_room_and_those_at_work_stay() {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
-        let all = Connections::new(3);
-        let mut connections: Vec<Silent> = (0..3)
-            .map(|_| connect(&listener, &all).expect("room"))
-            .collect();
-        connections[0].place.works();
-        connections[1].place.is_trusted();
-        // Its own handle goes with its thread's, so that its place is free.
-        let number = |silent: &Silent| silent.place.number;
-        let stranger = connections.remove(2);
-        let gone = number(&stranger);
-        drop(stranger.place);
-        let fourth = connect(&listener, &all).expect("the room of the stranger");
-        let open: Vec<u64> = all.lock().connections.keys().copied().collect();
-        assert_eq!(open, [0, 1, number(&fourth)]);
-        assert!(!open.contains(&gone));
-        fourth.place.works();
-        connections[1].place.works();
-        assert!(connect(&listener, &all).is_none(), "all are at work");
+        let all = Connections::new(2);
+        let connections: Vec<Reading> = (0..4).map(|_| connect(&listener, &all)).collect();
+        let place = |n: usize| &connections[n].place;
+        assert!(place(0).enter() && place(1).enter());
+        assert!(!place(2).enter(), "both are at work");
+        place(1).wait();
+        // Two times are two, on coarse clocks too.
+        thread::sleep(Duration::from_millis(2));
+        place(0).wait();
+        assert!(place(3).enter());
+        assert_eq!(open(&all), [0, 2, 3], "1 was silent for longer");
+        assert!(place(0).enter(), "it has its place");
+        place(3).linger();
+        assert!(place(2).enter(), "one that lingers holds no place");
+        assert_eq!(open(&all), [0, 2, 3]);
+    }
+
+    #[test]
+    fn strangers_make_room_for_strangers_alone_and_those_with_their_answer_first() {
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        let all = Connections::new(2);
+        let users = [0, 1].map(|_| connect(&listener, &all));
+        assert!(users[0].place.enter() && users[1].place.enter());
+        users[1].place.wait();
+        let mut strangers: Vec<Reading> =
+            (0..STRANGERS).map(|_| connect(&listener, &all)).collect();
+        strangers[9].place.linger();
+        let gone = [strangers[9].place.number, strangers[0].place.number];
+        for _ in gone {
+            strangers.push(connect(&listener, &all));
+        }
+        let open = open(&all);
+        assert_eq!(open.len(), 2 + STRANGERS);
+        assert_eq!(open[..2], [0, 1]);
+        assert!(gone.iter().all(|number| !open.contains(number)));
     }
 }

@@ -6,20 +6,13 @@
 
 use crate::{
     error::ApiError,
-    http::{Head, Status},
+    http::{Answer, Head, Status},
     token::Token,
 };
-use std::net::SocketAddr;
-
-/// Names of the loopback address by which the server may be called.
-const NAMES: [&str; 3] = ["127.0.0.1", "localhost", "[::1]"];
-/// The port that addresses leave out.
-const USUAL_PORT: u16 = 80;
+use std::net::{Ipv4Addr, Ipv6Addr};
 
 /// What tells this server's requests from those of others.
 pub(crate) struct Guard {
-    /// `Host` of a request to this server.
-    hosts: Vec<String>,
     token: Token,
 }
 
@@ -41,15 +34,19 @@ pub(crate) enum Refusal {
     NoToken,
 }
 
-impl Guard {
-    /// The guard of a server at this address.
-    pub(crate) fn new(address: SocketAddr, token: Token) -> Self {
-        let port = address.port();
-        let mut hosts: Vec<String> = NAMES.iter().map(|name| format!("{name}:{port}")).collect();
-        if port == USUAL_PORT {
-            hosts.extend(NAMES.map(str::to_owned));
+impl From<&Refusal> for Answer {
+    fn from(refusal: &Refusal) -> Self {
+        match refusal {
+            Refusal::Foreign(error) => Self::from(error),
+            Refusal::NoToken => Self::empty(Status::NotFound),
         }
-        Self { hosts, token }
+    }
+}
+
+impl Guard {
+    /// The guard of a server with this token.
+    pub(crate) fn new(token: Token) -> Self {
+        Self { token }
     }
 
     /// The path of the page, with the token.
@@ -59,13 +56,16 @@ impl Guard {
 
     /// Where the request goes.
     pub(crate) fn pass<'a>(&self, head: &'a Head) -> Result<Target<'a>, Refusal> {
-        let ours = |host: &str| self.hosts.iter().any(|own| own.eq_ignore_ascii_case(host));
-        if !head.host.as_deref().is_some_and(ours) {
-            return Err(foreign("the request names another host"));
-        }
-        if let Some(origin) = &head.origin
-            && !origin.strip_prefix("http://").is_some_and(ours)
-        {
+        let host = head.host.as_deref().filter(|host| is_local(host));
+        let host = host.ok_or_else(|| foreign("the request names another host"))?;
+        let site = head.fetch_site.as_deref();
+        // A proxy may put another name of this machine for the page's; that the page is its own, the browser knows.
+        let own = |origin: &str| match origin.split_once("://") {
+            Some(("http", page)) if page.eq_ignore_ascii_case(host) => true,
+            Some(("http" | "https", page)) => site == Some("same-origin") && is_local(page),
+            _ => false,
+        };
+        if !head.origin.as_deref().is_none_or(own) {
             return Err(foreign("the request comes from another page"));
         }
         let path = head.target.split('?').next().unwrap_or_default();
@@ -79,7 +79,6 @@ impl Guard {
         }
         // A link in another page may lead to this one, and to nothing below it.
         let is_page = matches!(below, Target::Below("") | Target::WithoutSlash);
-        let site = head.fetch_site.as_deref();
         if !is_page && site.is_some_and(|site| !matches!(site, "same-origin" | "none")) {
             return Err(foreign("another site asked for this"));
         }
@@ -87,11 +86,29 @@ impl Guard {
     }
 }
 
+/// Whether a host, with or without a port, is this machine whoever is asked for its address. Its port is that of a
+/// tunnel or a proxy where one forwards the request.
+fn is_local(host: &str) -> bool {
+    let name = match host.rsplit_once(':') {
+        Some((name, port)) if port.bytes().all(|b| b.is_ascii_digit()) => name,
+        _ => host,
+    };
+    let name = name.strip_suffix('.').unwrap_or(name);
+    let v6 = name.strip_prefix('[').and_then(|v6| v6.strip_suffix(']'));
+    match v6 {
+        Some(v6) => v6.parse().is_ok_and(|v6: Ipv6Addr| v6.is_loopback()),
+        None => {
+            let v4 = name.parse::<Ipv4Addr>();
+            name.eq_ignore_ascii_case("localhost") || v4.is_ok_and(|v4| v4.is_loopback())
+        }
+    }
+}
+
 fn foreign(error: &str) -> Refusal {
     Refusal::Foreign(ApiError::new(
         Status::Forbidden,
         error,
-        "open the address that `asperity studio` printed",
+        "open the address that `asperity studio` printed; behind a tunnel or a proxy, by the name localhost",
     ))
 }
 
@@ -99,9 +116,8 @@ fn foreign(error: &str) -> Refusal {
 mod tests {
     use super::*;
 
-    fn guard(port: u16) -> (Guard, String) {
-        let token = Token::random().unwrap();
-        let guard = Guard::new(([127, 0, 0, 1], port).into(), token);
+    fn guard() -> (Guard, String) {
+        let guard = Guard::new(Token::random().unwrap());
         let page = guard.page();
         (guard, page)
     }
@@ -117,50 +133,106 @@ mod tests {
     }
 
     #[test]
-    fn names_of_this_machine_pass_and_all_others_are_foreign() {
-        let (guard, page) = guard(4000);
+    fn names_of_this_machine_pass_at_any_port_and_all_others_are_foreign() {
+        let (guard, page) = guard();
         for host in [
             "127.0.0.1:4000",
-            "localhost:4000",
-            "LOCALHOST:4000",
+            "127.0.0.1:9000",
+            "127.0.0.2:80",
+            "127.0.0.1",
+            "localhost:18080",
+            "LocalHost:4000",
+            "LOCALHOST",
+            "localhost.:4000",
+            "localhost.",
             "[::1]:4000",
+            "[::1]",
+            "[0:0:0:0:0:0:0:1]:9000",
         ] {
             let head = head(&page, Some(host), Some(&format!("http://{host}")), None);
             assert_eq!(guard.pass(&head), Ok(Target::Below("")), "{host}");
         }
         let hosts = [
-            "127.0.0.1",
-            "127.0.0.1:4001",
             "evil.example:4000",
+            "localhost.evil.example",
+            "localhost.evil.example:4000",
+            "evil.localhost:4000",
+            "evil-localhost:4000",
+            "localhost..:4000",
             "127.0.0.1.evil.example:4000",
             "127.0.0.1:4000.evil.example",
+            "127.0.0.1:4000:evil",
             "localhost:4000@evil.example",
+            "localhost@evil.example:4000",
+            "evil.example@localhost:4000",
+            "evil.example:localhost",
+            "localhost:4000/",
+            "localhost:-1",
+            "localhost:+80",
+            "localhost 4000",
             "0.0.0.0:4000",
+            "10.0.0.1:4000",
             "127.1:4000",
+            "0127.0.0.1:4000",
+            "2130706433:4000",
+            "::1",
+            "[::1",
+            "[::]:4000",
+            "[::2]:4000",
+            "[::1]evil.example:4000",
+            "[localhost]:4000",
+            ":4000",
+            ".",
             "",
         ];
         for host in hosts.map(Some).into_iter().chain([None]) {
-            let refused = guard.pass(&head(&page, host, None, None)).unwrap_err();
-            assert!(matches!(refused, Refusal::Foreign(_)), "{host:?}");
+            let origin = host.map(|host| format!("http://{host}"));
+            for origin in [None, origin.as_deref()] {
+                let head = head(&page, host, origin, Some("same-origin"));
+                let refused = guard.pass(&head).unwrap_err();
+                assert!(matches!(refused, Refusal::Foreign(_)), "{host:?}");
+            }
         }
-        for origin in [
+    }
+
+    #[test]
+    fn a_page_is_of_the_host_that_it_asks_or_by_its_browser_of_the_proxy_before_it() {
+        let (guard, page) = guard();
+        let passes = |origin: &str, site: Option<&str>| {
+            let head = head(&page, Some("127.0.0.1:4000"), Some(origin), site);
+            guard.pass(&head).is_ok()
+        };
+        let behind_a_proxy = [
+            "https://127.0.0.1:4000",
+            "http://localhost:80",
+            "http://[::1]",
+        ];
+        for origin in behind_a_proxy {
+            assert!(passes(origin, Some("same-origin")), "{origin}");
+        }
+        let never = [
             "null",
             "",
-            "https://127.0.0.1:4000",
-            "http://127.0.0.1:4001",
+            "127.0.0.1:4000",
+            "ftp://127.0.0.1:4000",
+            "http://127.0.0.1:4000/",
             "http://evil.example",
-        ] {
-            let head = head(&page, Some("127.0.0.1:4000"), Some(origin), None);
-            assert!(
-                matches!(guard.pass(&head), Err(Refusal::Foreign(_))),
-                "{origin}"
-            );
+            "http://evil.example@localhost",
+        ];
+        for origin in never {
+            assert!(!passes(origin, Some("same-origin")), "{origin}");
+        }
+        let others = ["http://127.0.0.1:4001", "http://localhost:4000"];
+        for origin in never.into_iter().chain(behind_a_proxy).chain(others) {
+            for site in [None, Some("none"), Some("same-site"), Some("cross-site")] {
+                assert!(!passes(origin, site), "{origin} {site:?}");
+            }
         }
     }
 
     #[test]
     fn another_site_reaches_the_page_and_nothing_below_it() {
-        let (guard, page) = guard(80);
+        let (guard, page) = guard();
         let site = |target: &str, site: &str| {
             let head = head(target, Some("localhost"), None, Some(site));
             guard.pass(&head).is_ok()

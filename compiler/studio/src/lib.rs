@@ -16,11 +16,12 @@
 //! Nothing. It listens on 127.0.0.1 alone, yet every program of the machine and every page in the user's browser can
 //! connect. So each request passes, in this order and before any byte of its body is read:
 //!
-//! 1. `server` and `connections`: at most so many connections; one that keeps silent goes first, and none is waited
-//!    for longer than the limit.
-//! 2. `http/`: a head of at most 16 KiB, a body of stated length.
-//! 3. `guard`: the `Host` and the `Origin` are this server's, against pages that reach it by a name of their own (DNS
-//!    rebinding) and pages of others; the path begins with the secret token; no other site asked for it.
+//! 1. `connections`: at most so many that have not shown the token, of which any goes for a new one.
+//! 2. `http/`: a head of at most 16 KiB, in time, and a body of stated length.
+//! 3. `guard`: `Host` is a name of this machine, at whatever port a tunnel has, against pages that reach it by a name of
+//!    their own (DNS rebinding); `Origin` is that host, or another local name where the browser says
+//!    same-origin; the path begins with the secret token; no other site asked for it.
+//!    A request that does not pass is the last of its connection. One that does takes a place of the user's.
 //! 4. `api`: the page's files by the table in `page`, so that no path reaches a file system; then the requests of the
 //!    interface, each with its limit of bytes.
 //!

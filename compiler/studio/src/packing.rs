@@ -56,3 +56,22 @@ pub(crate) fn pack(named: &[(String, Arc<Texture>)]) -> Result<Vec<u8>, ApiError
         .collect();
     encode(&assets).map_err(|e| ApiError::of(&e))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn textures_of_256_mib_are_packed_and_not_a_byte_more() {
+        let bytes = |count: usize| Arc::new(Texture::of_bytes("", &vec![0; count].into()));
+        let (large, byte) = (bytes(64 << 20), bytes(1));
+        // Without a name, none is packed in the end.
+        let mut named = vec![(String::new(), large); 4];
+        let refused = pack(&named).unwrap_err();
+        assert!(refused.error.starts_with("textures[0].name"), "{refused:?}");
+        named.push((String::new(), byte));
+        let refused = pack(&named).unwrap_err();
+        assert_eq!(refused.status, Status::TooLarge, "{refused:?}");
+        assert!(refused.error.contains("at most 268.4 MB"), "{refused:?}");
+    }
+}

@@ -40,19 +40,14 @@ impl Recent {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{recipe::What, texture::Making};
-    use asperity::{builtin, library::renamed, lower::lower};
+
+    fn texture(id: &str, bytes: usize) -> Arc<Texture> {
+        Arc::new(Texture::of_bytes(id, &vec![0; bytes].into()))
+    }
 
     #[test]
     fn the_last_256_are_kept_each_once() {
-        let asset = lower(&builtin::texture(), None).unwrap().bytes;
-        let named = |n: usize| {
-            let asset = renamed(&asset, &format!("texture {n}")).unwrap();
-            let what = |id: &str| What::Encode {
-                texture: id.to_owned(),
-            };
-            Arc::new(Texture::new(asset, Making::default(), what).unwrap())
-        };
+        let named = |n: usize| texture(&format!("texture {n}"), 1);
         let recent = Recent::default();
         let first = named(0);
         recent.keep(Arc::clone(&first));
@@ -66,5 +61,18 @@ mod tests {
         assert!(recent.get(named(1).id()).is_none(), "the oldest goes");
         assert!(recent.get(named(2).id()).is_some());
         assert!(recent.get("").is_none());
+    }
+
+    #[test]
+    fn assets_of_256_mib_are_kept_and_not_a_byte_more() {
+        let recent = Recent::default();
+        let kept = |ids: &[&str]| ids.iter().filter(|id| recent.get(id).is_some()).count();
+        recent.keep(texture("half", 128 << 20));
+        recent.keep(texture("rest", (128 << 20) - 1));
+        recent.keep(texture("last", 1));
+        assert_eq!(kept(&["half", "rest", "last"]), 3, "256 MiB fit");
+        recent.keep(texture("more", 1));
+        assert_eq!(kept(&["half"]), 0, "the oldest goes");
+        assert_eq!(kept(&["rest", "last", "more"]), 3);
     }
 }

@@ -4,7 +4,7 @@ use crate::{
     api,
     connections::{Connections, Place},
     error::ApiError,
-    guard::{Guard, Refusal, Target},
+    guard::{Guard, Target},
     http::{Answer, Body, Head, Method, Status, Timed, read_head},
     studio::Studio,
     token::Token,
@@ -19,7 +19,7 @@ use std::{
         atomic::{AtomicBool, Ordering},
     },
     thread,
-    time::{Duration, Instant},
+    time::Duration,
 };
 use thiserror::Error;
 
@@ -33,7 +33,7 @@ const TURNED_AWAY: Duration = Duration::from_millis(50);
 /// What clients may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
-    /// Connections at once, at least 1.
+    /// Connections at once that know the token, at least 1.
     pub connections: usize,
     /// Time for a request to come, and again for its answer to go.
     pub time: Duration,
@@ -130,7 +130,7 @@ impl Server {
             address,
             stopped: Arc::default(),
             shared: Arc::new(Shared {
-                guard: Guard::new(address, token),
+                guard: Guard::new(token),
                 studio: Arc::new(studio),
                 limits,
             }),
@@ -190,15 +190,18 @@ impl Server {
     }
 }
 
-/// Tells a client that there is no room.
-fn turn_away(stream: &TcpStream) {
-    let error = ApiError::new(
+/// There is no room.
+fn busy() -> Answer {
+    Answer::from(&ApiError::new(
         Status::Busy,
         "too many connections are open",
         "close other tabs of the studio, and try again",
-    );
-    // It may be gone already.
-    let _ = Answer::from(&error).send(&mut Timed::new(stream, TURNED_AWAY), true, false);
+    ))
+}
+
+/// Tells a client that there is no room. It may be gone already.
+fn turn_away(stream: &TcpStream) {
+    let _ = busy().send(&mut Timed::new(stream, TURNED_AWAY), true, false);
 }
 
 impl Shared {
@@ -206,35 +209,36 @@ impl Shared {
     fn serve(&self, stream: &TcpStream, place: &Place) {
         let mut buffer = Vec::new();
         loop {
-            place.waits();
             let mut timed = Timed::new(stream, self.limits.time);
             let head = match read_head(&mut timed, &mut buffer) {
                 Ok(Some(head)) => head,
                 Ok(None) => return,
-                Err(error) => return self.end(stream, &Answer::from(&error), false),
+                Err(error) => return self.end(stream, place, &Answer::from(&error), false),
             };
-            place.works();
-            let mut body = Body::new(&mut timed, &mut buffer, head.length, head.expects_continue);
-            let answer = self.answer(&head, &mut body, place);
             let bare = head.method == Method::Head;
+            let below = match self.guard.pass(&head) {
+                Ok(below) if place.enter() => below,
+                Ok(_) => return self.end(stream, place, &busy(), bare),
+                Err(refusal) => return self.end(stream, place, &Answer::from(&refusal), bare),
+            };
+            let mut body = Body::new(&mut timed, &mut buffer, head.length, head.expects_continue);
+            let answer = self.answer(&head, below, &mut body);
+            // What is left of a body would be read as a request.
             if head.closes || !body.is_over() {
-                return self.end(stream, &answer, bare);
+                return self.end(stream, place, &answer, bare);
             }
             let sent = answer.send(&mut Timed::new(stream, self.limits.time), false, bare);
             if sent.is_err() {
                 return;
             }
+            place.wait();
         }
     }
 
-    fn answer(&self, head: &Head, body: &mut Body<'_, '_>, place: &Place) -> Answer {
-        let below = match self.guard.pass(head) {
-            Ok(Target::Below(below)) => below,
-            Ok(Target::WithoutSlash) => return Answer::moved(&self.guard.page()),
-            Err(Refusal::Foreign(error)) => return Answer::from(&error),
-            Err(Refusal::NoToken) => return Answer::empty(Status::NotFound),
+    fn answer(&self, head: &Head, below: Target<'_>, body: &mut Body<'_, '_>) -> Answer {
+        let Target::Below(below) = below else {
+            return Answer::moved(&self.guard.page());
         };
-        place.is_trusted();
         let work = AssertUnwindSafe(|| api::answer(&self.studio, head, below, body));
         match catch_unwind(work) {
             Ok(Ok(answer)) => answer,
@@ -245,15 +249,15 @@ impl Shared {
     }
 
     /// Sends the last answer of a connection, and reads what still comes.
-    fn end(&self, stream: &TcpStream, answer: &Answer, bare: bool) {
+    fn end(&self, stream: &TcpStream, place: &Place, answer: &Answer, bare: bool) {
         let mut timed = Timed::new(stream, self.limits.time);
         if answer.send(&mut timed, true, bare).is_err() || stream.shutdown(Shutdown::Write).is_err()
         {
             return;
         }
+        place.linger();
         let mut rest = Timed::new(stream, LINGER.min(self.limits.time));
-        let began = Instant::now();
         let mut unwanted = [0; 1 << 14];
-        while began.elapsed() < LINGER && rest.read(&mut unwanted).is_ok_and(|count| count > 0) {}
+        while rest.read(&mut unwanted).is_ok_and(|count| count > 0) {}
     }
 }

@@ -236,6 +236,21 @@ impl Texture {
     }
 }
 
+#[cfg(test)]
+impl Texture {
+    /// One that holds these bytes, which need be no asset, and has this name among others.
+    pub(crate) fn of_bytes(id: &str, bytes: &Arc<[u8]>) -> Self {
+        let asset = asperity::lower::lower(&asperity::builtin::texture(), None).unwrap();
+        let what = |id: &str| What::Encode { texture: id.into() };
+        let texture = Self::new(asset.bytes, Making::default(), what).unwrap();
+        Self {
+            id: id.into(),
+            asset: Arc::clone(bytes),
+            ..texture
+        }
+    }
+}
+
 /// What names bytes: no two texts share it, even where someone tries.
 pub(crate) fn hash(bytes: &[u8]) -> String {
     let digest = Sha256::digest(bytes);

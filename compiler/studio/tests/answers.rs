@@ -1,6 +1,6 @@
 //! What the page gets, byte for byte what the compiler's own calls give.
 
-use crate::client::{SHARED, Site, reply};
+use crate::client::{SHARED, Site};
 use asperity::{
     builtin, driver,
     inference::Backend,
@@ -14,7 +14,7 @@ use asperity::{
 };
 use asperity_formats::Asset;
 use asperity_studio::{Collection, Limits};
-use std::{fs, io::Write as _, path::Path};
+use std::{fs, path::Path};
 
 #[test]
 fn every_answer_has_the_headers_that_bind_the_page() {
@@ -148,41 +148,6 @@ fn an_asset_at_a_rate_that_the_worklet_does_not_serve_is_converted_for_it() {
     let worklet = site.get(&format!("api/texture/{id}.worklet.asp")).body;
     let asset = Asset::parse(&worklet).expect("an asset");
     assert_eq!(asset.grid().sample_rate_hz(), 1600.0);
-}
-
-#[test]
-fn a_connection_takes_one_request_after_another_and_waits_where_it_should() {
-    let site = &*SHARED;
-    let mut stream = site.connect();
-    let (page, host) = (&site.page, &site.address);
-    let body = r#"{"prompt": "felt"}"#;
-    let both = format!(
-        "GET {page}studio.css HTTP/1.1\r\nHost: {host}\r\n\r\n\
-         POST {page}api/compile HTTP/1.1\r\nHost: {host}\r\nContent-Length: {}\r\n\r\n{body}",
-        body.len()
-    );
-    stream.write_all(both.as_bytes()).expect("room");
-    assert_eq!(
-        reply(&mut stream)
-            .expect("an answer")
-            .header("content-type"),
-        Some("text/css; charset=utf-8")
-    );
-    assert_eq!(
-        reply(&mut stream).expect("an answer").json()["name"],
-        "felt"
-    );
-    let expects = format!(
-        "POST {page}api/compile HTTP/1.1\r\nHost: {host}\r\nExpect: 100-continue\r\nContent-Length: {}\r\n\r\n",
-        body.len()
-    );
-    stream.write_all(expects.as_bytes()).expect("room");
-    assert_eq!(reply(&mut stream).expect("a word").status, 100);
-    stream.write_all(body.as_bytes()).expect("room");
-    assert_eq!(
-        reply(&mut stream).expect("an answer").json()["name"],
-        "felt"
-    );
 }
 
 #[test]

@@ -1,4 +1,5 @@
-//! Requests of others than the page: refused with the right status, and the server goes on.
+//! Requests of others than the page: refused with the right status, and the server goes on. Those that are wrong as HTTP
+//! are in `connection`.
 
 use crate::client::{SHARED, Site};
 use asperity_studio::Limits;
@@ -38,22 +39,6 @@ fn requests_of_strangers_are_refused_and_learn_nothing() {
     let wrong_token = String::from_utf8(wrong_token).expect("text");
     let token = page.trim_matches('/');
     let strangers = [
-        stranger("no host", 403, get(page, "")),
-        stranger(
-            "a name that points here",
-            403,
-            get(page, &format!("Host: evil.example:{port}\r\n")),
-        ),
-        stranger(
-            "the name without the port",
-            403,
-            get(page, "Host: 127.0.0.1\r\n"),
-        ),
-        stranger(
-            "two hosts",
-            400,
-            get(page, &format!("{own}Host: evil.example\r\n")),
-        ),
         stranger(
             "another origin",
             403,
@@ -115,36 +100,6 @@ fn requests_of_strangers_are_refused_and_learn_nothing() {
             "the token in small letters",
             404,
             get(&page.to_lowercase(), &own),
-        ),
-        stranger(
-            "a proxy's request",
-            400,
-            get(&format!("http://evil.example{page}"), &own),
-        ),
-        stranger("not HTTP", 400, "\u{16}\u{3}\u{1}\u{2}\r\n\r\n".into()),
-        stranger(
-            "a chunked body",
-            411,
-            format!(
-                "POST {page}api/compile HTTP/1.1\r\n{own}Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n"
-            ),
-        ),
-        stranger(
-            "two lengths",
-            400,
-            format!(
-                "POST {page}api/compile HTTP/1.1\r\n{own}Content-Length: 2\r\nContent-Length: 3\r\n\r\n{{}}"
-            ),
-        ),
-        stranger(
-            "a head without end",
-            431,
-            get(page, &format!("{own}X: {}\r\n", "a".repeat(1 << 16))),
-        ),
-        stranger(
-            "a thousand headers",
-            431,
-            get(page, &format!("{own}{}", "X: a\r\n".repeat(1000))),
         ),
     ];
     for Stranger {

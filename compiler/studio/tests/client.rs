@@ -129,7 +129,7 @@ pub(crate) fn reply(stream: &mut TcpStream) -> Option<Reply> {
 }
 
 /// Reads the head of an answer.
-fn head_of(stream: &mut TcpStream) -> Option<Reply> {
+pub(crate) fn head_of(stream: &mut TcpStream) -> Option<Reply> {
     let mut head = Vec::new();
     while !head.ends_with(b"\r\n\r\n") {
         let mut byte = [0];

@@ -3,6 +3,7 @@
 mod answers;
 mod attacks;
 mod client;
+mod connection;
 mod device;
 mod export;
 mod files;

@@ -89,44 +89,138 @@ fn answers_that_nobody_reads_are_given_up() {
     site.still_compiles();
 }
 
+/// Sockets that strangers open: how, and what each sends. None of them reads.
+fn strangers(site: &Site) -> [(&'static str, String); 8] {
+    let (page, host) = (&site.page, site.address);
+    let endless = "Content-Length: 1000000\r\n\r\nx";
+    let own = format!("Host: {host}\r\n");
+    let get = |path: &str| format!("GET {path} HTTP/1.1\r\n{own}\r\n");
+    [
+        ("silent", String::new()),
+        ("half a head", format!("GET {page} HTTP/1.1\r\nHost:")),
+        (
+            "a head byte by byte",
+            format!("GET {page} HTTP/1.1\r\n{own}X: {}", "x".repeat(40)),
+        ),
+        (
+            "another host, and a body that never comes",
+            format!("POST {page}api/open HTTP/1.1\r\nHost: evil.example\r\n{endless}"),
+        ),
+        (
+            "another origin, and a body that never comes",
+            format!(
+                "POST {page}api/open HTTP/1.1\r\n{own}Origin: https://evil.example\r\n{endless}"
+            ),
+        ),
+        (
+            "no token, and a body that never comes",
+            format!("POST /api/open HTTP/1.1\r\n{own}{endless}"),
+        ),
+        ("no token, and no answer read", get("/").repeat(200)),
+        ("no HTTP, and no answer read", "\r\nhello\r\n".repeat(200)),
+    ]
+}
+
 #[test]
-fn a_thousand_silent_sockets_shut_nobody_out() {
+fn strangers_shut_nobody_out_whatever_they_do() {
     #[cfg(unix)]
     allow_files(4096);
     let site = Site::start(None, Limits::default());
-    let half_a_head = format!("GET {} HTTP/1.1\r\nHost:", site.page);
-    let held: Vec<TcpStream> = (0..1000)
-        .map(|n| {
-            let mut stream = site.connect();
-            if n % 2 == 0 {
-                // A socket that made room for others already takes none.
-                let _ = stream.write_all(half_a_head.as_bytes());
-            }
-            stream
-        })
-        .collect();
-    let began = Instant::now();
     site.still_compiles();
-    assert!(
-        began.elapsed() < Duration::from_secs(5),
-        "{:?}",
-        began.elapsed()
-    );
-    let open = held.iter().filter(|stream| {
-        let mut stream = *stream;
-        stream.set_nonblocking(true).expect("a socket");
-        // One that was shut reads its end.
-        stream
-            .read(&mut [0])
-            .is_err_and(|e| e.kind() == std::io::ErrorKind::WouldBlock)
-    });
-    let open = open.count();
-    assert!(open <= 64, "{open} are held open");
+    let mut held: Vec<TcpStream> = Vec::new();
+    for (what, sends) in strangers(&site) {
+        let by_byte = what.contains("byte by byte");
+        let new = (0..170).map(|_| {
+            let mut stream = site.connect();
+            stream.set_nonblocking(true).expect("a socket");
+            // One that made room for others already takes none; one that is full stays so.
+            let _ = stream.write(if by_byte { b"" } else { sends.as_bytes() });
+            stream
+        });
+        let new: Vec<TcpStream> = new.collect();
+        let asks = || {
+            let began = Instant::now();
+            site.still_compiles();
+            for _ in 0..10 {
+                let page = site.get("");
+                assert_eq!(page.status, 200, "{what}: {page:?}");
+            }
+            let took = began.elapsed();
+            assert!(took < Duration::from_secs(5), "{what}: {took:?}");
+        };
+        asks();
+        if by_byte {
+            for byte in sends.as_bytes() {
+                let dripped = new.iter().map(|mut stream| stream.write(&[*byte]).is_ok());
+                assert!(dripped.filter(|ok| *ok).count() > 0, "{what}");
+            }
+            asks();
+        }
+        held.extend(new);
+        let open = held.iter().filter(|stream| {
+            // One that was shut or answered reads that.
+            let read = (&mut &**stream).read(&mut [0]);
+            read.is_err_and(|e| e.kind() == std::io::ErrorKind::WouldBlock)
+        });
+        let open = open.count();
+        assert!(open <= 64, "{what}: {open} are held open");
+    }
     drop(held);
     site.still_compiles();
 }
 
-/// Lets this process hold more files, as 1,000 sockets and their other ends are.
+/// The user's own places: a client that has its last answer holds none, though it sends on and closes nothing.
+#[test]
+fn a_client_that_lingers_holds_no_place() {
+    let one = Limits {
+        connections: 1,
+        ..Limits::default()
+    };
+    let site = Site::start(None, one);
+    let large = head(&site, 70_000);
+    let held: Vec<TcpStream> = (0..8)
+        .map(|_| {
+            let mut stream = site.connect();
+            stream.write_all(large.as_bytes()).expect("room");
+            assert_eq!(reply(&mut stream).expect("an answer").status, 413);
+            stream
+        })
+        .collect();
+    site.still_compiles();
+    drop(held);
+}
+
+/// A place is given once the token is right: strangers, answered one after another, take none from the one who has it.
+#[test]
+fn refused_requests_take_no_place() {
+    let one = Limits {
+        connections: 1,
+        ..Limits::default()
+    };
+    let site = Site::start(None, one);
+    let (page, host) = (&site.page, site.address);
+    let get = format!("GET {page} HTTP/1.1\r\nHost: {host}\r\n\r\n");
+    let mut own = site.connect();
+    let mut asks = || {
+        own.write_all(get.as_bytes()).expect("it is open");
+        reply(&mut own).expect("an answer").status
+    };
+    assert_eq!(asks(), 200);
+    for _ in 0..100 {
+        for (path, host, status) in [
+            ("/", host.to_string(), 404),
+            (page.as_str(), "evil.example".into(), 403),
+        ] {
+            let mut stranger = site.connect();
+            let request = format!("GET {path} HTTP/1.1\r\nHost: {host}\r\n\r\n");
+            stranger.write_all(request.as_bytes()).expect("room");
+            assert_eq!(reply(&mut stranger).expect("an answer").status, status);
+        }
+    }
+    assert_eq!(asks(), 200, "its connection was not shut for them");
+}
+
+/// Lets this process hold more files, as 1,360 sockets and their other ends are.
 #[cfg(unix)]
 fn allow_files(count: u64) {
     use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
