@@ -230,6 +230,38 @@ fn an_asset_that_does_not_parse_is_not_shelved() {
 }
 
 #[test]
+fn an_index_is_as_long_as_names_can_be_and_ends_with_the_last_one() {
+    let whole = three();
+    let least = HEADER_LEN + 3 * (ENTRY + 1);
+    let most = HEADER_LEN + 3 * (ENTRY + 64);
+    for (len, fits) in [
+        (least - 1, false),
+        (least, true),
+        (most, true),
+        (most + 1, false),
+    ] {
+        let mut header = whole[..HEADER_LEN].to_vec();
+        put(&mut header, 12, &(len as u32).to_le_bytes());
+        assert_eq!(index_len(&header).ok(), fits.then_some(len), "{len}");
+    }
+    // A byte behind the last name; everything behind it moves along.
+    let mut bytes = whole.clone();
+    bytes.insert(index_len(&whole).unwrap(), b'x');
+    let entries = [0, 1, 2].map(|entry| HEADER_LEN + ENTRY * entry);
+    for at in [12, 16].into_iter().chain(entries) {
+        let moved = common::u32_at(&bytes, at) + 1;
+        put(&mut bytes, at, &moved.to_le_bytes());
+    }
+    seal(&mut bytes);
+    let error = Library::parse(&bytes).map(drop).unwrap_err();
+    let field = "library.index_len";
+    assert!(
+        matches!(error, FormatError::Invalid { field: f, .. } if f == field),
+        "{error:?}"
+    );
+}
+
+#[test]
 fn every_field_of_the_index_is_checked() {
     let original = three();
     let at = |entry: usize, offset: usize| HEADER_LEN + ENTRY * entry + offset;

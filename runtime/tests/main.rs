@@ -26,6 +26,7 @@ mod loading;
 
 // From one texture or surface to another.
 mod exchange;
+mod scene_model;
 mod scene_steps;
 mod scenes;
 mod texture_swaps;

@@ -38,20 +38,25 @@ fn ball(center_m: [f32; 3], radius_m: f32) -> Solid {
 
 /// A library of two textures, the second one twice as stiff.
 fn library(surfaces: &[SceneSurface]) -> Vec<u8> {
-    let textures: Vec<_> = [200.0, 400.0]
-        .into_iter()
-        .zip(1..)
-        .map(|(stiffness_n_m, seed)| {
-            let kind = Kind {
-                lattice: (3, 3),
-                ..Kind::nyquist(8)
-            };
-            let mut texture = random(seed, kind);
-            texture.coupling.stiffness_n_m = stiffness_n_m;
-            texture.encode()
-        })
-        .collect();
-    let named: Vec<(&str, &[u8])> = vec![("a", &textures[0]), ("b", &textures[1])];
+    let textures = [(200.0, 1), (400.0, 2)].map(|(stiffness_n_m, seed)| {
+        let kind = Kind {
+            lattice: (3, 3),
+            ..Kind::nyquist(8)
+        };
+        let mut texture = random(seed, kind);
+        texture.coupling.stiffness_n_m = stiffness_n_m;
+        texture
+    });
+    library_of(&textures, surfaces)
+}
+
+pub(crate) fn library_of(
+    textures: &[asperity_tests::texture::Texture],
+    surfaces: &[SceneSurface],
+) -> Vec<u8> {
+    let bytes: Vec<_> = textures.iter().map(|texture| texture.encode()).collect();
+    let names = ["a", "b", "c", "d"].into_iter();
+    let named: Vec<(&str, &[u8])> = names.zip(bytes.iter().map(Vec::as_slice)).collect();
     let mut out = vec![0; 1 << 17];
     let len = encode_scene(&named, surfaces, &mut out).unwrap();
     out.truncate(len);
@@ -62,10 +67,17 @@ pub(crate) fn on_scene<A: RenderArithmetic, R>(
     surfaces: &[SceneSurface],
     play: impl FnOnce(&Scene<'_, 8, HostCapacities, A>, &Renderer<A>) -> R,
 ) -> R {
-    let bytes = library(surfaces);
-    let mut slots = vec![HostSlot::<A>::new(), HostSlot::<A>::new()];
+    on_library(&library(surfaces), play)
+}
+
+pub(crate) fn on_library<A: RenderArithmetic, R>(
+    library: &[u8],
+    play: impl FnOnce(&Scene<'_, 8, HostCapacities, A>, &Renderer<A>) -> R,
+) -> R {
+    let library = Library::parse(library).unwrap();
+    let mut slots = vec![HostSlot::<A>::new(); library.index().len()];
     let config = Config::default();
-    let scene = Scene::load(&Library::parse(&bytes).unwrap(), &config, &mut slots).unwrap();
+    let scene = Scene::load(&library, &config, &mut slots).unwrap();
     play(&scene, &Renderer::prepare(&config).unwrap())
 }
 

@@ -123,8 +123,9 @@ impl Cache {
             return Ok(());
         }
         let written = self.write(key, asset, facts);
-        if written.is_err() {
-            self.full.store(true, Ordering::Relaxed);
+        // Of several threads that fail at the same time, one tells.
+        if written.is_err() && self.full.swap(true, Ordering::Relaxed) {
+            return Ok(());
         }
         written
     }
@@ -260,12 +261,22 @@ mod tests {
     }
 
     #[test]
-    fn a_cache_that_cannot_be_written_says_so_once() {
+    fn a_cache_that_cannot_be_written_says_so_once_however_many_write() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("file");
         fs::write(&file, "").unwrap();
-        let cache = Cache::new(file);
-        assert!(cache.put(&Key::of(b"a"), b"", &Facts::default()).is_err());
-        assert!(cache.put(&Key::of(b"b"), b"", &Facts::default()).is_ok());
+        for _ in 0..50 {
+            let cache = Cache::new(file.clone());
+            let start = std::sync::Barrier::new(8);
+            let put = &|n: u8| {
+                start.wait();
+                cache.put(&Key::of(&[n]), b"", &Facts::default()).is_err()
+            };
+            let told = std::thread::scope(|scope| {
+                let threads = [0, 1, 2, 3, 4, 5, 6, 7].map(|n| scope.spawn(move || put(n)));
+                threads.map(|thread| thread.join().unwrap())
+            });
+            assert_eq!(told.iter().filter(|told| **told).count(), 1);
+        }
     }
 }

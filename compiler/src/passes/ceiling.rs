@@ -169,7 +169,7 @@ fn rms_m_s2(model: &ArmaModel, numerator: Numerator) -> f64 {
 mod tests {
     use super::*;
     use crate::sources::builtin;
-    use asperity_texture::model::attributes;
+    use asperity_texture::model::{FrictionLaw, LawPoint, attributes};
 
     fn louder(factor: f64) -> TextureModel {
         let mut texture = builtin::texture();
@@ -205,29 +205,37 @@ mod tests {
 
     #[test]
     fn friction_leaves_the_peaks_of_a_vibration_their_room() {
-        let mut texture = louder(300.0);
-        // As loud under a light hand as under a heavy one.
-        let loud = texture.grid.vertices[texture.grid.vertices.len() - 1].clone();
-        for vertex in &mut texture.grid.vertices {
-            vertex.lsf_rad.clone_from(&loud.lsf_rad);
-            vertex.sigma_m_s2 = loud.sigma_m_s2;
-        }
-        texture.friction.mu = 3.0;
-        let ceiling = limit(&mut texture);
-        // Friction takes so much that the continuous force is no longer what limits.
-        assert!(ceiling.rms_n < 0.8 * ceiling.continuous_n, "{ceiling:?}");
-        let peak_n = texture.gains.f_max_n;
-        let to_force = texture.gains.vib_s2_m * peak_n;
-        let share = |at: &Level| {
-            let along_n = 3.0 * at.force_n + 3.0 * to_force * at.rms_m_s2;
-            at.force_n.hypot(along_n) / peak_n
+        // A coefficient of 3, and a law that reaches it from 0.5 within 1 mm/s.
+        let point = |speed_mm_s, factor| LawPoint { speed_mm_s, factor };
+        let law = FrictionLaw {
+            points: vec![point(0.0, 1.0), point(1.0, 6.0)],
         };
-        let levels = levels(&texture.grid);
-        let light = levels
-            .iter()
-            .filter(|at| at.force_n <= ceiling.continuous_n);
-        let most = light.map(share).fold(0.0, f64::max);
-        assert!((0.99..1.0).contains(&most), "{most} of the peak");
+        for (mu, law) in [(3.0, None), (0.5, Some(law))] {
+            let mut texture = louder(300.0);
+            // As loud under a light hand as under a heavy one.
+            let loud = texture.grid.vertices[texture.grid.vertices.len() - 1].clone();
+            for vertex in &mut texture.grid.vertices {
+                vertex.lsf_rad.clone_from(&loud.lsf_rad);
+                vertex.sigma_m_s2 = loud.sigma_m_s2;
+            }
+            (texture.friction.mu, texture.friction.law) = (mu, law);
+            let ceiling = limit(&mut texture);
+            // Friction takes so much that the continuous force is no longer what limits.
+            assert!(ceiling.rms_n < 0.8 * ceiling.continuous_n, "{ceiling:?}");
+            let peak_n = texture.gains.f_max_n;
+            let to_force = texture.gains.vib_s2_m * peak_n;
+            let share = |at: &Level| {
+                let mu = if at.speed_mm_s < 1.0 { mu } else { 3.0 };
+                let along_n = mu * at.force_n + 3.0 * to_force * at.rms_m_s2;
+                at.force_n.hypot(along_n) / peak_n
+            };
+            let levels = levels(&texture.grid);
+            let light = levels
+                .iter()
+                .filter(|at| at.force_n <= ceiling.continuous_n);
+            let most = light.map(share).fold(0.0, f64::max);
+            assert!((0.99..1.0).contains(&most), "μ {mu}: {most} of the peak");
+        }
     }
 
     #[test]

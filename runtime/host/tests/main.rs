@@ -9,6 +9,7 @@ mod latency;
 mod openhaptics;
 mod replayed;
 mod servo;
+mod servo_model;
 mod session_log;
 mod support;
 mod unplugged;

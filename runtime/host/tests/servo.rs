@@ -1,17 +1,17 @@
-//! The servo loop in virtual time: overruns, faults, shutdown, telemetry.
+//! The servo loop in virtual time with the runtime in it: faults, shutdown, telemetry. Overruns, recoveries and how a loop
+//! ends are in `servo_model`.
 
 use crate::support::{Act, Kept, Scripted, length, texture};
 use asperity_formats::Library;
 use asperity_host::device::DeviceError;
 use asperity_host::servo::{
-    End, Event, InScene, Observer as _, Overrun, Played, Render as _, Report, ServoLoop, Settings,
-    SettingsError, SingleTexture, Stage, Virtual, queues,
+    End, Event, InScene, Observer as _, Played, Render as _, Report, ServoLoop, Settings,
+    SettingsError, SingleTexture, Virtual, queues,
 };
 use asperity_runtime::{Exchange, Flags, HostScene, HostTexture, Sample, SceneState, State};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
-const PERIOD_NS: u64 = 1_000_000;
 static NEVER: AtomicBool = AtomicBool::new(false);
 
 fn calm(_: u64) -> Act {
@@ -26,19 +26,10 @@ fn failing(calls: Range<u64>, fault: DeviceError) -> impl FnMut(u64) -> Act + Se
     }
 }
 
-/// Takes so long in one call.
-fn slow(at: u64, takes_ns: u64) -> impl FnMut(u64) -> Act + Send {
-    move |call| Act {
-        takes_ns: if call == at { takes_ns } else { 0 },
-        ..Act::default()
-    }
-}
-
 struct Run {
     report: Report,
     kept: Kept,
     forces: Vec<[f32; 3]>,
-    recoveries: usize,
 }
 
 /// 1,000 periods at 1 kHz, or as many as `settings` say.
@@ -46,12 +37,10 @@ fn run(
     settings: Settings,
     read: impl FnMut(u64) -> Act + Send,
     write: impl FnMut(u64) -> Act + Send,
-    recovery_ns: u64,
 ) -> Run {
     let clock = Virtual::new();
     let (texture, renderer) = texture(1000.0);
     let mut device = Scripted::new(&clock, read, write);
-    device.recovery_ns = recovery_ns;
     let mut kept = Kept::default();
     let render = SingleTexture {
         renderer: &renderer,
@@ -63,7 +52,6 @@ fn run(
         report,
         kept,
         forces: device.forces,
-        recoveries: device.recoveries.len(),
     }
 }
 
@@ -105,7 +93,7 @@ fn a_loop_whose_processor_rounds_otherwise_ends_and_lets_go() {
         round(if call == 500 { 2 << 13 } else { 0 });
         Act::default()
     };
-    let run = run(periods(1000), read, calm, 0);
+    let run = run(periods(1000), read, calm);
     round(2 << 13);
     let refused = Settings::at(1000).check(1000.0);
     round(0);
@@ -116,107 +104,12 @@ fn a_loop_whose_processor_rounds_otherwise_ends_and_lets_go() {
 }
 
 #[test]
-fn a_punctual_loop_runs_every_period_once() {
-    let run = run(periods(1000), calm, calm, 0);
-    assert_eq!((run.report.end, run.report.missed), (End::Over, 0));
-    assert!(run.report.ticks >= 1000 && run.kept.events.is_empty());
-    for (n, record) in run.kept.records.iter().enumerate().take(1000) {
-        assert_eq!(record.period, n as u64);
-        assert_eq!(record.times.due_ns, (n as u64 + 1) * PERIOD_NS);
-        assert_eq!(record.sample.elapsed_ticks, 1);
-        assert_eq!(record.times.of(Stage::WakeUp), Some(0));
-    }
-    assert!(run.forces.iter().any(|&force| length(force) > 0.5));
-    assert_within_limits(&run);
-}
-
-#[test]
-fn skipped_periods_are_counted_and_the_next_sample_says_so() {
-    let run = run(periods(100), slow(10, 7 * PERIOD_NS / 2), calm, 0);
-    // Tick 10 takes 3.5 periods: those of ticks 11 and 12 pass, and 13 runs half a period late.
-    assert_eq!((run.report.missed, run.report.caught_up), (2, 0));
-    let after = &run.kept.records[11];
-    assert_eq!((after.period, after.missed), (13, 2));
-    assert_eq!(after.sample.elapsed_ticks, 3);
-    assert_eq!(after.times.of(Stage::WakeUp), Some(5 * PERIOD_NS / 2));
-    let next = &run.kept.records[12];
-    assert_eq!(next.times.due_ns, 15 * PERIOD_NS, "it stays in phase");
-    assert_eq!(next.times.of(Stage::WakeUp), Some(0));
-    assert_eq!(run.report.longest_gap_ns, 7 * PERIOD_NS / 2);
-    assert_within_limits(&run);
-}
-
-#[test]
-fn missed_periods_are_made_up_for_one_after_the_other() {
-    let settings = Settings {
-        overrun: Overrun::CatchUp,
-        ..periods(100)
-    };
-    let run = run(settings, slow(10, 7 * PERIOD_NS / 2), calm, 0);
-    assert_eq!((run.report.missed, run.report.caught_up), (2, 2));
-    for (n, record) in run.kept.records.iter().enumerate().take(100) {
-        assert_eq!((record.period, record.sample.elapsed_ticks), (n as u64, 1));
-    }
-    let late = |n: usize| run.kept.records[n].times.of(Stage::WakeUp);
-    let half = PERIOD_NS / 2;
-    let expected = [5 * half, 3 * half, half, 0].map(Some);
-    assert_eq!([11, 12, 13, 14].map(late), expected);
-    assert_within_limits(&run);
-}
-
-#[test]
-fn periods_missed_while_others_are_made_up_for_count_once() {
-    let settings = Settings {
-        overrun: Overrun::CatchUp,
-        ..periods(100)
-    };
-    let slow_twice = |call| Act {
-        takes_ns: match call {
-            10 => 7 * PERIOD_NS / 2,
-            11 => 2 * PERIOD_NS,
-            _ => 0,
-        },
-        ..Act::default()
-    };
-    let run = run(settings, slow_twice, calm, 0);
-    // Tick 10 misses two periods; the first that is made up for misses two more.
-    let missed = |n: usize| run.kept.records[n].missed;
-    assert_eq!([11, 12, 13, 14, 15].map(missed), [2, 2, 0, 0, 0]);
-    assert_eq!((run.report.missed, run.report.caught_up), (4, 4));
-    assert_within_limits(&run);
-}
-
-#[test]
-fn no_more_is_made_up_for_than_a_tenth_of_a_second() {
-    let settings = Settings {
-        overrun: Overrun::CatchUp,
-        ..periods(2000)
-    };
-    let run = run(settings, slow(10, 1001 * PERIOD_NS), calm, 0);
-    assert_eq!((run.report.missed, run.report.caught_up), (1000, 100));
-    assert_within_limits(&run);
-}
-
-#[test]
-fn a_loop_that_may_miss_nothing_ends_without_force() {
-    let settings = Settings {
-        overrun: Overrun::Stop,
-        ..periods(1000)
-    };
-    let run = run(settings, slow(400, 5 * PERIOD_NS / 2), calm, 0);
-    assert_eq!((run.report.end, run.report.missed), (End::Overrun, 1));
-    assert!(run.report.ticks < 420);
-    assert_within_limits(&run);
-}
-
-#[test]
 fn two_lost_readings_are_held_and_the_third_is_safe() {
     for (lost, safe) in [(1, false), (2, false), (3, true), (40, true)] {
         let run = run(
             periods(600),
             failing(300..300 + lost, DeviceError::TimedOut),
             calm,
-            0,
         );
         let was_safe = |n: usize| run.kept.records[n].output.flags.contains(Flags::SAFE_STATE);
         assert_eq!((300..599).any(was_safe), safe, "{lost} lost");
@@ -240,12 +133,7 @@ fn two_lost_readings_are_held_and_the_third_is_safe() {
 
 #[test]
 fn forces_that_do_not_arrive_are_a_fault_as_well() {
-    let run = run(
-        periods(600),
-        calm,
-        failing(300..310, DeviceError::Stalled),
-        0,
-    );
+    let run = run(periods(600), calm, failing(300..310, DeviceError::Stalled));
     assert_eq!((run.report.write_faults, run.report.read_faults), (10, 0));
     // The runtime counts what it was given: ten samples behind forces that did not arrive, and those of the end.
     let counters = run.report.counters;
@@ -256,23 +144,6 @@ fn forces_that_do_not_arrive_are_a_fault_as_well() {
     assert!(flags.contains(Flags::SAFE_STATE));
     assert_eq!(run.kept.events.len(), 2);
     assert_within_limits(&run);
-}
-
-/// While the force of a device that takes nothing fades, the loop tries once more and then ends; the report does not
-/// claim what the device never confirmed.
-#[test]
-fn a_force_that_nobody_could_take_away_is_reported() {
-    for (until, taken) in [(603, true), (604, false), (u64::MAX, false)] {
-        let run = run(
-            periods(600),
-            calm,
-            failing(599..until, DeviceError::Stalled),
-            0,
-        );
-        assert_eq!(run.report.ended_without_force, taken, "{:?}", run.report);
-        // 600 periods, three in which the force fades, and the last try.
-        assert_eq!((run.report.ticks, run.forces.len()), (603, 604));
-    }
 }
 
 /// What the loop checks its rate against is the configuration of whatever renders.
@@ -330,7 +201,7 @@ fn a_device_that_says_nothing_new_is_silent_after_three_ticks() {
         old: (300..320).contains(&call),
         ..Act::default()
     };
-    let run = run(periods(600), read, calm, 0);
+    let run = run(periods(600), read, calm);
     assert_eq!((run.report.stale, run.report.read_faults), (20, 0));
     let failed = Event::Failed {
         period: 302,
@@ -343,28 +214,6 @@ fn a_device_that_says_nothing_new_is_silent_after_three_ticks() {
             .flags
             .contains(Flags::SAFE_STATE)
     );
-    assert_within_limits(&run);
-}
-
-#[test]
-fn recovery_is_tried_without_force_and_its_time_is_counted_apart() {
-    let run = run(
-        periods(1000),
-        failing(300..500, DeviceError::Disconnected),
-        calm,
-        7 * PERIOD_NS + PERIOD_NS / 2,
-    );
-    assert!(run.recoveries >= 2, "{}", run.recoveries);
-    assert_eq!(run.report.recoveries, run.recoveries as u64);
-    assert_eq!(run.report.missed, 0);
-    // Of 7.5 periods, the first is the one in which recovery began.
-    assert_eq!(run.report.paused, 6 * run.report.recoveries);
-    // The first try comes after 50 ms of faults; the force is zero by then.
-    assert!(run.forces[305..500].iter().all(|force| *force == [0.0; 3]));
-    let tries = run.kept.events.iter();
-    let tries = tries.filter(|event| matches!(event, Event::NotRecovered { .. }));
-    assert_eq!(tries.count(), run.recoveries);
-    assert!(length(run.forces[900]) > 0.5, "the force comes back");
     assert_within_limits(&run);
 }
 
@@ -389,7 +238,6 @@ fn a_loop_that_is_stopped_in_contact_lets_go_at_the_slew_limit() {
         report,
         kept: Kept::default(),
         forces: device.forces,
-        recoveries: 0,
     };
     assert_eq!(run.report.end, End::Asked);
     assert!(length(run.forces[200]) > 0.5);

@@ -106,18 +106,6 @@ impl Attack {
     ) -> Self {
         let words: Vec<&str> = line.split(' ').collect();
         let outputs = words.iter().filter(|word| word.starts_with("out"));
-        // Of what lies in an output folder, the programs choose the names.
-        let inside = [
-            "Wood.asp",
-            "Test.asp",
-            "wood.asp",
-            "a.csv",
-            "b.csv",
-            "accel.csv",
-            "touch.csv",
-            "recording.toml",
-        ];
-        let inside = inside.map(|name| format!("out/{name}"));
         // The header of a C array lies beside it, and the lock of a build beside its manifest.
         let header = line.contains("c-array").then(|| "out.h".to_owned());
         let lock = (words[0] == "build").then(|| format!("{}.lock", words[1]));
@@ -126,7 +114,6 @@ impl Attack {
             command: line,
             outputs: outputs
                 .map(|&word| word.to_owned())
-                .chain(inside)
                 .chain(header)
                 .chain(lock)
                 .collect(),
@@ -174,10 +161,8 @@ impl Attack {
             self.arguments[at] = place.into();
             self.told += &format!(", written to {place:?}");
             if place == "materials" {
-                // A folder of assets goes there.
-                self.outputs.extend(
-                    ["Wood.asp", "Test.asp", "a.csv", "b.csv"].map(|n| format!("materials/{n}")),
-                );
+                // A folder of files goes there; that its inputs stay is checked beside.
+                self.outputs.push(place.to_owned());
             }
         }
     }

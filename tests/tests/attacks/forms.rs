@@ -40,7 +40,8 @@ const PAINT: &str =
 
 const CACHED: &str = "build cached.toml -o out.aspl --cache cache --json";
 
-pub(crate) const FORMS: [Form; 72] = [
+/// Their number shares no divisor with the stride of the small size, so that it meets as many of them as it can.
+pub(crate) const FORMS: [Form; 91] = [
     form(Compiler, "inspect in.asp", "in.asp", Seed::Asset),
     form(Compiler, "inspect in.asp --json", "in.asp", Seed::Asset),
     form(Compiler, "inspect in.aspl", "in.aspl", Seed::Library),
@@ -51,6 +52,18 @@ pub(crate) const FORMS: [Form; 72] = [
         Seed::Library,
     ),
     form(Compiler, "inspect in.aspl --json", "in.aspl", Seed::Scene),
+    form(
+        Lab,
+        "jitter in.asp --seconds 0.1 --policy other --no-lock",
+        "in.asp",
+        Seed::Asset,
+    ),
+    form(
+        Compiler,
+        "split in.aspl -o out --into 2",
+        "in.aspl",
+        Seed::Library,
+    ),
     form(Compiler, "plot in.asp -o out.png", "in.asp", Seed::Asset),
     form(
         Compiler,
@@ -432,5 +445,92 @@ pub(crate) const FORMS: [Form; 72] = [
         "pareto --quick --cortex-m in.csv --out out",
         "in.csv",
         Seed::Counts,
+    ),
+    form(
+        Compiler,
+        "edit in.asp --rougher 5 -o out.asp --no-preview",
+        "in.asp",
+        Seed::Prompted,
+    ),
+    form(
+        Compiler,
+        "blend cork.asp in.asp -o out.asp --no-preview",
+        "in.asp",
+        Seed::Prompted,
+    ),
+    form(
+        Compiler,
+        "compose --tap in.asp --slide cork.asp -o out.asp --no-preview",
+        "in.asp",
+        Seed::Prompted,
+    ),
+    form(
+        Compiler,
+        "encode in.asp -o out.asp --no-preview --json",
+        "in.asp",
+        Seed::Asset,
+    ),
+    form(
+        Compiler,
+        "merge in.aspl cork.asp -o out.aspl",
+        "in.aspl",
+        Seed::Library,
+    ),
+    form(Compiler, "list in.aspl --json", "in.aspl", Seed::Library),
+    form(
+        Compiler,
+        "extract in.aspl a -o out.asp",
+        "in.aspl",
+        Seed::Library,
+    ),
+    form(
+        Compiler,
+        "rename in.aspl a other -o out.aspl",
+        "in.aspl",
+        Seed::Library,
+    ),
+    form(Compiler, "split in.aspl -o out", "in.aspl", Seed::Library),
+    form(Compiler, "diff in.asp good.asp", "in.asp", Seed::Asset),
+    form(
+        Compiler,
+        "listen in.asp -o out.wav --speed 100",
+        "in.asp",
+        Seed::Asset,
+    ),
+    form(
+        Compiler,
+        "studio in.aspl --export out",
+        "in.aspl",
+        Seed::Library,
+    ),
+    form(
+        Lab,
+        "jitter overlay in.hlog good.hlog -o out.png",
+        "in.hlog",
+        Seed::Intervals,
+    ),
+    form(
+        Lab,
+        "bench --hatt materials --seconds 3 -o out",
+        "materials/in.xml",
+        Seed::Material,
+    ),
+    form(
+        Lab,
+        "device exercise sim:in.toml?time=stepped --ticks 300",
+        "in.toml",
+        Seed::Device,
+    ),
+    form(
+        Lab,
+        "device faults sim:in.toml?time=stepped&grip=firm --patience 1",
+        "in.toml",
+        Seed::Device,
+    ),
+    long(
+        Lab,
+        "measured --hatt materials -o out",
+        "materials/in.xml",
+        Seed::Material,
     ),
 ];

@@ -1,4 +1,4 @@
-//! Hostile inputs to every command of both programs, seeded: damaged, forged, endless, strange.
+//! Hostile inputs to every command of both programs that reads any (`tree` holds the list against theirs), seeded: damaged, forged, endless, strange.
 //!
 //! Whatever the input, a command ends by itself with exit status 0, 1 or 2, within two seconds of
 //! processor time, or that of 50 plain prompts on a slow machine, and 512 MiB of memory. It leaves no partial
@@ -19,6 +19,7 @@ mod recording;
 mod run;
 mod seeds;
 mod strange;
+mod tree;
 mod verdict;
 
 use asperity_tests::{draw::Draw, size::sized};

@@ -18,6 +18,8 @@ use tempfile::TempDir;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Seed {
     Asset,
+    /// An asset that remembers its prompt, so that it can be edited.
+    Prompted,
     Library,
     Scene,
     Trajectory,
@@ -60,6 +62,7 @@ impl Seed {
         !matches!(
             self,
             Self::Asset
+                | Self::Prompted
                 | Self::Library
                 | Self::Scene
                 | Self::Projection
@@ -75,6 +78,7 @@ impl Seed {
 /// A valid input of every kind.
 pub(crate) struct Seeds {
     asset: Vec<u8>,
+    prompted: Vec<u8>,
     library: Vec<u8>,
     scene: Vec<u8>,
     model: Vec<u8>,
@@ -175,6 +179,7 @@ impl Seeds {
                 Program::Compiler,
                 "build cached.toml -o c.aspl --cache cache",
             ),
+            (Program::Compiler, "extract c.aspl cork -o cork.asp"),
         ] {
             let arguments: Vec<OsString> = line.split(' ').map(OsString::from).collect();
             let run = run(programs.path(program), &arguments, made.path());
@@ -205,6 +210,7 @@ impl Seeds {
             effects: [ClipFormat::Haptic, ClipFormat::Ahap, ClipFormat::Hjif].map(effects),
             shipped,
             asset,
+            prompted: read("cork.asp"),
             trajectory: trajectory(),
             material: material(),
             wave: recording::wave(),
@@ -222,6 +228,7 @@ impl Seeds {
     pub(crate) fn bytes(&self, seed: Seed) -> &[u8] {
         match seed {
             Seed::Asset => &self.asset,
+            Seed::Prompted => &self.prompted,
             Seed::Library => &self.library,
             Seed::Scene => &self.scene,
             Seed::Trajectory => self.trajectory.as_bytes(),
@@ -273,6 +280,7 @@ impl Seeds {
         fs::write(folder.join("cached.toml"), CACHED).expect("a valid input");
         for (name, seed) in [
             ("good.asp", Seed::Asset),
+            ("cork.asp", Seed::Prompted),
             ("scene.aspl", Seed::Scene),
             ("stroke.csv", Seed::Trajectory),
             ("wood.xml", Seed::Material),

@@ -195,3 +195,23 @@ fn speeds_and_loads_that_no_hand_has_are_a_wrong_unit_unless_the_channel_is_dead
     assert_eq!(told(1.9, 101.0, [false, true, true]), none);
     assert_eq!(told(1.9, 101.0, [true, false, false]).len(), 2);
 }
+
+#[test]
+fn a_dead_axis_may_be_the_one_that_shows_gravity() {
+    // In g.
+    let recording = test_recordings::recording(all(Quantity::Acceleration, [0.0, 0.6, 0.8]));
+    let aligned = Aligned::new(&recording, &[0.0; 3]).expect("long");
+    let timeline = test_recordings::timeline(aligned.count);
+    let faults = |dead: [bool; 3]| -> Vec<String> {
+        let found = check(&recording, &aligned, &timeline, &dead).into_iter();
+        found
+            .filter(|f| f.severity == Severity::Fault)
+            .map(|f| f.channel)
+            .collect()
+    };
+    assert_eq!(faults([false; 3]), ["acceleration"]);
+    for axis in 0..3 {
+        let dead = [0, 1, 2].map(|n| n == axis);
+        assert!(faults(dead).is_empty(), "{dead:?}");
+    }
+}

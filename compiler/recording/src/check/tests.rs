@@ -37,6 +37,32 @@ fn gravity_is_the_size_of_the_mean_acceleration_from_half_a_metre_on() {
     assert!(told(0.3, -0.41).is_some());
 }
 
+#[test]
+fn no_gravity_is_told_of_an_accelerometer_with_a_dead_axis() {
+    let around = |seed, level: f64| -> Vec<f64> {
+        let noise = crate::signal::noise::white(seed, 3000, 1);
+        noise.iter().map(|x| level + 0.1 * x).collect()
+    };
+    let tells = |y: &[f64]| {
+        let of = |quantity, axis, values: &[f64]| {
+            test_recordings::channel(quantity, axis, 1000.0, values)
+        };
+        let recording = test_recordings::recording(vec![
+            of(Quantity::Acceleration, Axis::X, &around(1, 5.0)),
+            of(Quantity::Acceleration, Axis::Y, y),
+            of(Quantity::Force, Axis::Z, &around(3, 1.0)),
+            of(Quantity::Speed, Axis::Along, &around(4, 0.5)),
+        ]);
+        let (checked, _) = check(&recording).expect("every quantity");
+        checked
+            .findings
+            .iter()
+            .any(|f| f.kind == Kind::Gravity && f.severity == Severity::Good)
+    };
+    assert!(tells(&around(2, 0.0)));
+    assert!(!tells(&[0.0; 3000]));
+}
+
 fn said(change: impl Fn(&mut FileClock)) -> Vec<(Kind, Severity, String)> {
     let mut recording = test_recordings::recording(vec![test_recordings::channel(
         Quantity::Force,

@@ -156,7 +156,7 @@ struct Sums {
 
 #[test]
 #[ignore = "needs the measurements of others in ASPERITY_DRAWING_TOOLS"]
-fn models_of_the_other_speeds_are_held_against_the_nearest_speed() {
+fn models_of_the_other_speeds_are_nearer_than_the_nearest_speed() {
     let folder = super::folder();
     let mut sums = [Sums::default(); SPEEDS];
     let mut files = 0;
@@ -224,4 +224,9 @@ fn models_of_the_other_speeds_are_held_against_the_nearest_speed() {
             mean(|sum| sum.nearest_spectrum, speeds)
         );
     }
+    // Published: 1.64 dB against 2.18 and 1.94 dB.
+    let between = &sums[1..SPEEDS - 1];
+    let grid = mean(|sum| sum.grid, between);
+    assert!(grid < mean(|sum| sum.nearest_model, between));
+    assert!(grid < mean(|sum| sum.nearest_spectrum, between));
 }

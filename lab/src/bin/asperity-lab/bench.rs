@@ -264,14 +264,18 @@ fn write(
             "give a folder that does not exist yet",
         ));
     }
-    std::fs::create_dir(folder).map_err(fail)?;
     let until = Until::Seconds(arguments.seconds[0]);
     let performance = import_accuracy::perform(texture, arguments.strokes(), until, arguments.seed)
         .map_err(one)?;
     let mut sensors = Sensors::seeded(arguments.seed);
     arguments.alter(&mut sensors);
-    import_accuracy::record(&performance, texture, &sensors, arguments.seed, folder)
-        .map_err(fail)?;
+    std::fs::create_dir(folder).map_err(fail)?;
+    let written = import_accuracy::record(&performance, texture, &sensors, arguments.seed, folder);
+    if let Err(error) = written {
+        // Half a recording is none.
+        let _ = std::fs::remove_dir_all(folder);
+        return Err(fail(error));
+    }
     let text = format!(
         "{}: {:.0} s of {}, {} impacts\n",
         folder.display(),

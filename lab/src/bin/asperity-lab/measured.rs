@@ -15,15 +15,15 @@ use asperity_io::{
 
 use crate::error::{Plain, all};
 
+/// Remedy of what no input can cause.
+const BUG: &str = "report this as a bug";
+
 /// Compare prompts with the measured materials that they name
 ///
 /// Every material of a HaTT folder is compiled by its name, and the vibration of the texture is held
 /// against the measured models at nine strokes in twelve third octaves. Baselines that know the other
 /// materials are judged alike, among them the generator of the reference corpus, whose constants are
 /// fitted to the folder without the name. Intervals are of 95 %, by a bootstrap over names.
-/// Remedy of what no input can cause.
-const BUG: &str = "report this as a bug";
-
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   asperity-lab measured --hatt hatt/models

@@ -19,8 +19,8 @@ pub(crate) struct Fake {
     _folder: tempfile::TempDir,
 }
 
-/// Builds `tests/fake/NAME.c` with more options of the compiler; `None`, with a message, where there is no C compiler.
-pub(crate) fn build(name: &str, options: &[&str]) -> Option<(PathBuf, tempfile::TempDir)> {
+/// Builds `tests/fake/NAME.c` with more options of the compiler. A C compiler is a prerequisite of the tests.
+pub(crate) fn build(name: &str, options: &[&str]) -> (PathBuf, tempfile::TempDir) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join(format!("lib{name}.so"));
     // Tests of other packages use this file too.
@@ -38,26 +38,24 @@ pub(crate) fn build(name: &str, options: &[&str]) -> Option<(PathBuf, tempfile::
         .args(options)
         .args(["-lpthread", "-lm"])
         .output();
-    match ran {
-        Ok(output) if output.status.success() => Some((path, folder)),
-        Ok(output) => panic!("{compiler}: {}", String::from_utf8_lossy(&output.stderr)),
-        Err(error) => {
-            eprintln!("skipped: no C compiler `{compiler}` ({error}); set CC to name another");
-            None
-        }
-    }
+    let output = ran.unwrap_or_else(|error| {
+        panic!("no C compiler `{compiler}` ({error}); install one, or set CC to name another")
+    });
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{compiler}: {said}");
+    (path, folder)
 }
 
 impl Fake {
-    pub(crate) fn new(name: &str, options: &[&str]) -> Option<Self> {
-        let (path, folder) = build(name, options)?;
+    pub(crate) fn new(name: &str, options: &[&str]) -> Self {
+        let (path, folder) = build(name, options);
         // SAFETY: our own library, without constructors.
         let library = unsafe { libloading::Library::new(&path) }.expect("our own library");
-        Some(Self {
+        Self {
             library,
             path,
             _folder: folder,
-        })
+        }
     }
 
     /// A function that steers the fake, of the type that `tests/fake/` gives it.

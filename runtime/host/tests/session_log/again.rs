@@ -1,6 +1,6 @@
 //! What was felt is felt again to the bit.
 
-use asperity_host::session_log::{Ending, TextureInfo, render_again, start};
+use asperity_host::session_log::{Comparison, Ending, TextureInfo, render_again, start};
 
 use super::session::{Shared, asset, conditions, entries, other, read};
 
@@ -45,6 +45,17 @@ fn a_session_with_two_textures_is_rendered_again_to_the_bit() {
     let mut reseeded = recording.clone();
     reseeded.conditions.seed += 1;
     assert!(render_again(&reseeded, asset).expect("rendered").different > 1000);
+    // What follows a lost tick is not compared: the runtime was given something else.
+    let mut gap = recording.clone();
+    drop(gap.entries.drain(3000..3003));
+    gap.entries[3000].lost_before = 3;
+    let comparison = render_again(&gap, asset).expect("rendered");
+    let wanted = Comparison {
+        compared: 3000,
+        not_compared: 2997,
+        ..Comparison::default()
+    };
+    assert_eq!((comparison, comparison.is_same()), (wanted, false));
     assert!(
         render_again(&recording, |_| None).is_err(),
         "no bytes, no comparison"

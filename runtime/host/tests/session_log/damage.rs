@@ -1,6 +1,6 @@
 //! No damage goes unnoticed.
 
-use asperity_host::session_log::{Ending, SessionLogError};
+use asperity_host::session_log::{Ending, SessionLogError, Summary};
 
 use super::session::{BUILTIN, conditions, entries, file, read};
 
@@ -128,6 +128,20 @@ fn foreign_newer_and_hostile_files_give_clear_errors() {
             matches!(error, SessionLogError::Malformed { at: 8.., .. }),
             "{kind} {body:?}: {error}"
         );
+    }
+    // The end block counts the ticks that stand before it, and those that were lost.
+    let without_end = &whole[..whole.len() - 11];
+    let ended = |recorded, lost| read(&[without_end, &block(3, &[recorded, lost])].concat());
+    assert!(matches!(
+        ended(10, 7).expect("whole").ending,
+        Ending::Whole(Summary {
+            recorded: 10,
+            lost: 7
+        })
+    ));
+    for recorded in [9, 11] {
+        let error = ended(recorded, 0).expect_err("another count");
+        assert!(error.to_string().contains("count of ticks"), "{error}");
     }
     let later = with(77, b"of a later version").expect("skipped");
     assert!(matches!(later.ending, Ending::Cut { .. }) && later.entries.is_empty());

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use asperity_host::session_log::{
-    Entry, SessionLog, SessionLogError, TextureInfo, render_again, start,
+    Ending, Entry, SessionLog, SessionLogError, TextureInfo, render_again, start,
 };
 
 use super::session::{Shared, asset, conditions, entries, other, read};
@@ -39,6 +39,7 @@ fn a_slow_disk_loses_ticks_that_are_counted_and_never_stops_the_servo_thread() {
     );
     let bytes = shared.0.lock().expect("no panic").clone();
     let recording = read(&bytes).expect("a recording");
+    assert_eq!(recording.ending, Ending::Whole(summary));
     // Where the entries stand among all ticks.
     let mut tick = 0;
     for entry in &recording.entries {
