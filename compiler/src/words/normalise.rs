@@ -1,5 +1,6 @@
 //! A prompt as words: what is typed in different ways becomes the same.
 
+use super::homoglyphs::latin;
 use std::borrow::Cow;
 use unicode_normalization::UnicodeNormalization as _;
 
@@ -36,23 +37,38 @@ const EMOJI: [(char, &str); 17] = [
 ];
 
 /// Divides a prompt into words: compatibility forms (NFKC) in lower case, without marks that show
-/// nothing, with one apostrophe, in British spelling. "isn't" is "is not".
+/// nothing, with one apostrophe, in British spelling, and without letters of other scripts in Latin words. "isn't" is
+/// "is not". A number is one word: "1,000" and "1'000" are "1000", "½" is "1/2", "3,5" stays.
 #[must_use]
 pub fn normalise(prompt: &str) -> Vec<Token> {
-    let text = shown(prompt).nfkc().collect::<String>().to_lowercase();
+    let text = in_letters(&shown(prompt)).to_lowercase();
     let mut tokens = Vec::new();
     let mut word = String::new();
-    let mut characters = text.chars().peekable();
-    while let Some(character) = characters.next() {
-        let digit = characters.peek().is_some_and(char::is_ascii_digit);
+    let (mut rest, mut before) = (text.as_str(), ' ');
+    while let Some(character) = rest.chars().next() {
+        if character.is_ascii_digit() && !word.ends_with(['.', '/']) {
+            let (length, number) = number(rest);
+            for (n, number) in number.split(' ').enumerate() {
+                if n > 0 {
+                    end(&mut word, &mut tokens);
+                    tokens.push(Token::Break);
+                }
+                word.push_str(number);
+            }
+            rest = &rest[length..];
+            before = '0';
+            continue;
+        }
+        rest = &rest[character.len_utf8()..];
+        let digit = rest.starts_with(|c: char| c.is_ascii_digit());
         match character {
             '’' | '‘' | 'ʼ' | '`' | '´' | '\'' => word.push('\''),
             _ if character.is_alphanumeric() || is_accent(character) => word.push(character),
             // "#80" is a grit, "#cork" a word.
             '#' if word.is_empty() && digit => word.push('#'),
-            // "1,000" and "0,8"
-            ',' if digit && is_grouped(&word, characters.clone()) => {}
-            ',' if digit && word == "0" => word.push('.'),
+            // "A -5", but not "80-120" and not "A-60"
+            '-' | '–' if digit && before.is_whitespace() => word.push('-'),
+            '−' if digit && before.is_whitespace() => word.push('−'),
             // "2.5"
             '.' if digit && word.ends_with(|c: char| c.is_ascii_digit()) => word.push('.'),
             _ => {
@@ -66,6 +82,7 @@ pub fn normalise(prompt: &str) -> Vec<Token> {
                 }
             }
         }
+        before = character;
     }
     end(&mut word, &mut tokens);
     while tokens.last() == Some(&Token::Break) {
@@ -93,11 +110,71 @@ pub fn shown(prompt: &str) -> String {
     text
 }
 
-/// Whether a comma after these digits groups thousands: three digits follow it.
-fn is_grouped(before: &str, after: impl Iterator<Item = char>) -> bool {
-    let digits = after.take_while(char::is_ascii_digit).count();
-    let group = (1..=3).contains(&before.len()) && !before.starts_with('0');
-    group && digits == 3 && before.bytes().all(|byte| byte.is_ascii_digit())
+/// A text in the letters that it is read in: compatibility forms, and Latin letters for what looks like them in a word.
+pub(crate) fn in_letters(text: &str) -> String {
+    latin(&measured(text).nfkc().collect::<String>())
+}
+
+/// A text with fractions apart from what stands before them ("1½" is no 11⁄2), the mark of inches behind a number as a
+/// word, and without the marks of trade.
+fn measured(text: &str) -> String {
+    let mut measured = String::with_capacity(text.len());
+    let mut quoted = false;
+    for character in text.chars() {
+        let behind_digit = measured.ends_with(|c: char| c.is_numeric());
+        match character {
+            '¼'..='¾' | '\u{2150}'..='\u{215f}' => measured.extend([' ', character]),
+            '″' if behind_digit => measured.push_str(" inch "),
+            '"' if behind_digit && !quoted => measured.push_str(" inch "),
+            '™' | '℠' => {}
+            _ => {
+                quoted ^= character == '"';
+                measured.push(character);
+            }
+        }
+    }
+    measured
+}
+
+/// The number that a text begins with, and its bytes there: thousands joined, a fraction with its stroke, and a comma
+/// before any other decimals. Numbers of a list are apart.
+fn number(text: &str) -> (usize, String) {
+    const COMMAS: [char; 3] = [',', '\'', '’'];
+    let of_number = |c: char| c.is_ascii_digit() || COMMAS.contains(&c);
+    let run = &text[..text.find(|c| !of_number(c)).unwrap_or(text.len())];
+    let run = run.trim_end_matches(COMMAS);
+    let parts: Vec<&str> = run.split(COMMAS).filter(|part| !part.is_empty()).collect();
+    let joined = match &parts[..] {
+        [whole] => return fraction(text, whole),
+        [first, groups @ ..]
+            if first.len() < 4
+                && !first.starts_with('0')
+                && groups.iter().all(|g| g.len() == 3) =>
+        {
+            parts.concat()
+        }
+        // "0,8" is no list.
+        ["0", decimals] => format!("0.{decimals}"),
+        [whole, decimals] if run.contains(',') && whole.len() < 4 && decimals.len() < 3 => {
+            format!("{whole},{decimals}")
+        }
+        list => list.join(" "),
+    };
+    (run.len(), joined)
+}
+
+/// "1/2", or the whole number before anything else.
+fn fraction(text: &str, whole: &str) -> (usize, String) {
+    let after = text[whole.len()..].strip_prefix(['/', '⁄']);
+    let below = after.map_or("", |after| {
+        &after[..after.bytes().take_while(u8::is_ascii_digit).count()]
+    });
+    let behind = after.map_or("", |after| &after[below.len()..]);
+    let is_one = |digits: &str| (1..=2).contains(&digits.len());
+    if is_one(whole) && is_one(below) && !behind.starts_with(['/', '⁄']) {
+        return (text.len() - behind.len(), format!("{whole}/{below}"));
+    }
+    (whole.len(), whole.to_owned())
 }
 
 fn is_accent(character: char) -> bool {
@@ -123,7 +200,7 @@ fn end(word: &mut String, tokens: &mut Vec<Token>) {
 }
 
 /// A word in British spelling.
-fn spelled(word: &str) -> Cow<'_, str> {
+pub(crate) fn spelled(word: &str) -> Cow<'_, str> {
     let line = |line: &'static str| line.split_once('\t');
     let found = SPELLINGS.lines().filter_map(line);
     let british = |stem: &str| {
@@ -137,6 +214,15 @@ fn spelled(word: &str) -> Cow<'_, str> {
         Some(british) => format!("{british}s").into(),
         None => word.into(),
     }
+}
+
+/// A text without the accents of its letters.
+#[must_use]
+pub(crate) fn without_accents(text: &str) -> Cow<'_, str> {
+    if text.is_ascii() {
+        return text.into();
+    }
+    text.nfd().filter(|c| !is_accent(*c)).collect()
 }
 
 /// A word in the singular, by its ending: the key of a name, never what an encoder sees.
@@ -202,7 +288,20 @@ mod tests {
             ("baby’s cheek", "baby's cheek"),
             ("🧱", "brick"),
             ("#80 (Ra 2.5)", "#80 / ra 2.5"),
-            ("1,000 grit, 0,8 or 3,5", "1000 grit / 0.8 or 3 / 5"),
+            ("1,000 grit, 0,8 or 3,5", "1000 grit / 0.8 or 3,5"),
+            (
+                "P1,000, 1'000,000 or 80,120,400",
+                "p1000 / 1000000 or 80120400",
+            ),
+            ("60,80,120 grit", "60 / 80 / 120 grit"),
+            ("1½ inch, ¾\" or 1/2 mm", "1 1/2 inch / 3/4 inch or 1/2 mm"),
+            ("\"P80\" on 24/7/365", "p80 on 24 7 365"),
+            (
+                "Shore A -5, A-60 and 80-120",
+                "shore a -5 / a 60 and 80 120",
+            ),
+            ("−20 and –20", "−20 and -20"),
+            ("velcro™ vеlvet", "velcro velvet"),
             ("'cork'…", "cork"),
             ("#cork", "cork"),
         ] {

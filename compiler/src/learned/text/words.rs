@@ -14,7 +14,7 @@ use std::borrow::Cow;
 
 /// Share s of the sentence encoder in a cosine.
 const SENTENCE: f32 = 0.43;
-/// Endings that a word may lose, and what stands in their place.
+/// Endings that a word may lose, and what stands in their place: first those that any noun or verb may have.
 const ENDINGS: [(&str, &str); 11] = [
     ("ies", "y"),
     ("es", ""),
@@ -28,6 +28,9 @@ const ENDINGS: [(&str, &str); 11] = [
     ("est", ""),
     ("y", ""),
 ];
+
+/// How many of these nouns and verbs have.
+const INFLECTIONS: usize = 7;
 
 /// Vectors of words, in 8 bits.
 #[derive(Debug, Clone, Copy)]
@@ -57,29 +60,29 @@ impl WordTable {
         })
     }
 
-    /// The row of a word as it stands, or of the same word without its ending.
-    fn row(&self, word: &str) -> Option<usize> {
+    /// The row of a word as it stands, or of the same word without one of these endings.
+    fn row(&self, word: &str, endings: &[(&str, &str)]) -> Option<usize> {
         let found = |word: &str| {
             let row = self.rows.id("", word)? as usize;
             (row < self.count).then_some(row)
         };
         found(word).or_else(|| {
-            ENDINGS.iter().find_map(|(ending, instead)| {
+            endings.iter().find_map(|(ending, instead)| {
                 let stem = word.strip_suffix(ending).filter(|stem| stem.len() > 2)?;
                 found(&format!("{stem}{instead}"))
             })
         })
     }
 
-    /// Whether a word has a row, as it stands or without its ending.
+    /// Whether a word has a row, as it stands or without the ending of a plural or of a verb: "gravier" is no gravy.
     #[must_use]
     pub fn holds(&self, word: &str) -> bool {
-        self.row(word).is_some()
+        self.row(word, &ENDINGS[..INFLECTIONS]).is_some()
     }
 
     /// Adds the row of a word to a sum; false where there is none.
     fn add(&self, word: &str, sum: &mut [f32]) -> bool {
-        let Some(row) = self.row(word) else {
+        let Some(row) = self.row(word, &ENDINGS) else {
             return false;
         };
         let at = self.count * self.width + row * size_of::<f32>();

@@ -1,12 +1,28 @@
 //! How well what a prompt says is known.
 
-use super::{lexicon::is_name, phrase::Phrase, prompt_compiler::PromptCompiler, reading::Reading};
+use super::{
+    lexicon::is_name,
+    phrase::Phrase,
+    prompt_compiler::PromptCompiler,
+    reading::{Correction, Reading},
+};
 use crate::learned::Certainty;
 
 impl PromptCompiler {
     /// What was read is known where it is one name, with qualities and numbers at most; close where it is put
-    /// together of known things, or lies near to what the model was trained on; else a guess.
+    /// together of known things, or lies near to what the model was trained on; else a guess. What was misspelt is at
+    /// most close, and a guess where it may be another word.
     pub(super) fn certainty(&self, reading: &Reading, unfamiliar: bool) -> Certainty {
+        let certainty = self.certainty_as_read(reading, unfamiliar);
+        let taken = |correction: &&Correction| reading.holds(&correction.taken);
+        match reading.correction.as_ref().filter(taken) {
+            Some(correction) if correction.doubtful => Certainty::Guess,
+            Some(_) => certainty.min(Certainty::Close),
+            None => certainty,
+        }
+    }
+
+    fn certainty_as_read(&self, reading: &Reading, unfamiliar: bool) -> Certainty {
         let near = if unfamiliar {
             Certainty::Guess
         } else {

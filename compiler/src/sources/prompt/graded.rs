@@ -61,7 +61,7 @@ impl PromptCompiler {
             Scale::ShoreA => self.as_hard(thing, SHORE, value),
             Scale::ShoreD => self.as_hard(thing, SHORE, value + D_FROM_A),
             Scale::Mohs => self.as_hard(thing, MOHS, value),
-            Scale::Ra | Scale::Threads | Scale::Denier | Scale::Cut | Scale::Pile => {
+            Scale::Ra | Scale::Threads | Scale::Denier | Scale::Cut | Scale::Wale | Scale::Pile => {
                 let rougher = moved(thing, 0, self.rough_per_e()? * libm::log(coarser));
                 let yields = if scale == Scale::Pile {
                     PILE_YIELDS

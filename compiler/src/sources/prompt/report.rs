@@ -21,9 +21,10 @@ impl CompiledPrompt {
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         warnings.extend(self.understood.warning());
-        if let Some(Correction { said, taken }) = &self.reading.correction {
+        if let Some(Correction { said, taken, .. }) = &self.reading.correction {
             warnings.push(format!("“{said}” is read as “{taken}”"));
         }
+        warnings.extend(self.reading.numbers.iter().cloned());
         if let Some([first, last]) = self.reading.conflict {
             warnings.push(format!(
                 "{first} and {last} cannot both hold: {last} is taken"
@@ -41,9 +42,17 @@ impl CompiledPrompt {
             ));
         }
         if self.certainty == Certainty::Guess {
-            warnings.push(match self.reading.says {
-                true => "a guess: the prompt is far from everything the model knows".into(),
-                false => {
+            let doubtful = self.reading.correction.as_ref().filter(|c| c.doubtful);
+            warnings.push(match doubtful {
+                Some(Correction { said, .. }) => {
+                    format!(
+                        "a guess: “{said}” may be another word; describe the surface in English"
+                    )
+                }
+                None if self.reading.says => {
+                    "a guess: the prompt is far from everything the model knows".into()
+                }
+                None => {
                     "a guess: nothing in the prompt names something, or says how it feels".into()
                 }
             });

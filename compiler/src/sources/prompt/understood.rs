@@ -4,6 +4,7 @@
 //! they mean; of emoji hardly any. What they cannot read still moves the vector, so the user is warned.
 
 use super::PromptError;
+use crate::words::in_letters;
 use std::mem;
 
 /// Characters of a prompt that a message repeats.
@@ -35,9 +36,9 @@ pub fn check(prompt: &str) -> Result<(), PromptError> {
 pub(super) fn understood(prompt: &str, reads: impl Fn(&str) -> bool) -> Understood {
     let mut read = Vec::new();
     let mut unread = Vec::new();
-    for (script, run) in prompt.split_whitespace().flat_map(runs) {
+    for (script, run) in prompt.split_whitespace().flat_map(parted) {
         match script {
-            Script::Latin if reads(&run) => read.push(run),
+            Script::Latin if reads(&in_letters(&run)) => read.push(run),
             Script::Latin | Script::Other => unread.push(run),
             // Beside words, punctuation is no loss.
             Script::Neutral => {}
@@ -90,6 +91,24 @@ enum Script {
     Neutral,
 }
 
+/// A word whose letters are all read as Latin ones, such as ligatures and letters that look like Latin ones; else its
+/// runs.
+fn parted(word: &str) -> Vec<(Script, String)> {
+    let latin = in_letters(word);
+    let latin = || latin.chars().filter(|c| !joins(*c)).map(of);
+    if latin().all(|script| script != Script::Other)
+        && latin().any(|script| script == Script::Latin)
+    {
+        return vec![(Script::Latin, word.to_owned())];
+    }
+    // No word has letters of Latin and of Greek or Cyrillic: what remains of it is none.
+    let has = |letter: fn(char) -> bool| word.contains(letter);
+    if has(|c| c.is_ascii_alphabetic()) && has(|c| matches!(c, '\u{370}'..='\u{52f}')) {
+        return vec![(Script::Other, word.to_owned())];
+    }
+    runs(word)
+}
+
 /// Splits a word where its script changes. Punctuation goes with what it follows.
 fn runs(word: &str) -> Vec<(Script, String)> {
     let mut runs = Vec::new();
@@ -119,8 +138,12 @@ fn of(character: char) -> Script {
         '\0'..='\u{7f}' | '\u{80}'..='\u{bf}' | '×' | '÷' => Script::Neutral,
         // Latin with accents, which the encoder takes off.
         'À'..='\u{24f}' | '\u{1e00}'..='\u{1eff}' => Script::Latin,
-        // Dashes, quotation marks, currencies.
-        '\u{2010}'..='\u{205e}' | '\u{20a0}'..='\u{20cf}' => Script::Neutral,
+        // The unit of micrometres.
+        'μ' => Script::Latin,
+        // Dashes, quotation marks, currencies, arrows, signs of mathematics.
+        '\u{2010}'..='\u{205e}' | '\u{20a0}'..='\u{20cf}' | '\u{2190}'..='\u{22ff}' => {
+            Script::Neutral
+        }
         _ => Script::Other,
     }
 }
@@ -151,11 +174,18 @@ mod tests {
 
     #[test]
     fn words_are_read_and_other_scripts_are_named() {
-        let cases: [(&str, &str, &[&str]); 9] = [
+        let cases: [(&str, &str, &[&str]); 12] = [
             ("rough, gritty stone!", "rough, gritty stone!", &[]),
             ("crème brûlée – 60 % sugar", "crème brûlée 60 sugar", &[]),
             ("rough 木材 wood", "rough wood", &["木材"]),
             ("rough木材wood🔥", "rough wood", &["木材", "🔥"]),
+            (
+                "ﬂeece ｖｅｌｖｅｔ vеlvet",
+                "ﬂeece ｖｅｌｖｅｔ vеlvet",
+                &[],
+            ),
+            ("rough sжndpaper", "rough", &["sжndpaper"]),
+            ("½ ㎜ − 3 μm", "½ ㎜ 3 μm", &[]),
             ("wet 👩‍🚒❤️ ice", "wet ice", &["👩‍🚒❤️"]),
             ("خشب ناعم", "", &["خشب", "ناعم"]),
             ("шершавый", "", &["шершавый"]),

@@ -1,6 +1,6 @@
 //! How people write numbers with a meaning.
 
-use super::{Grade, Scale, parts::Parts};
+use super::{Grade, Scale, is_abrasive, parts::Parts};
 use crate::words::Token;
 
 /// What a prompt is about, where a number alone has two readings: "95A", "1000D".
@@ -9,6 +9,7 @@ pub(crate) struct Context {
     polymer: bool,
     textile: bool,
     file: bool,
+    abrasive: bool,
 }
 
 const POLYMERS: &[&str] = &[
@@ -65,6 +66,11 @@ impl Context {
             polymer: says(POLYMERS),
             textile: says(TEXTILES),
             file: says(&["file", "files"]),
+            abrasive: tokens.len() == 1
+                || tokens.iter().any(|token| match token {
+                    Token::Word(word) => is_abrasive(word) || word == "paper",
+                    Token::Break => false,
+                }),
         }
     }
 
@@ -82,6 +88,8 @@ const FILLERS: &[&str] = &[
     "of", "is", "size", "hardness", "rating", "number", "value", "about", "around", "grade",
     "scale", "no", "height", "depth", "length",
 ];
+/// Least number that a letter behind it makes a grade: "3D" is no hardness.
+const LEAST_GLUED: f64 = 5.0;
 /// Units of what is measured otherwise: "mesh 20 mm wide" is no mesh 20.
 const LENGTHS: &[&str] = &[
     "mm", "cm", "m", "in", "inch", "inches", "kg", "g", "ft", "x",
@@ -97,21 +105,37 @@ const MICROMETRES: &[&str] = &[
     "micrometers",
 ];
 
-/// The grade that tokens begin with, and how many it takes.
-pub(crate) fn read(tokens: &[Token], context: Context) -> Option<(usize, Grade)> {
-    const FORMS: [fn(&mut Parts<'_>, Context) -> Option<Grade>; 9] =
-        [cut, ra, shore, mohs, threads, denier, pile, mesh, grit];
-    let parts = Parts::new(tokens);
-    FORMS.iter().find_map(|form| {
-        let mut parts = parts.clone();
-        let grade = form(&mut parts, context)?;
-        Some((parts.tokens()?, grade))
-    })
+/// The grade that tokens begin with, and how many it takes; its number may be out of range.
+pub(super) fn any(tokens: &[Token], context: Context) -> Option<(usize, Grade)> {
+    const FORMS: [fn(&mut Parts<'_>, Context) -> Option<Grade>; 10] = [
+        cut, ra, shore, mohs, threads, denier, pile, mesh, grit, wale,
+    ];
+    let read = |grouped: bool| {
+        let parts = Parts::new(tokens, grouped);
+        FORMS.iter().find_map(|form| {
+            let mut parts = parts.clone();
+            let grade = form(&mut parts, context)?;
+            Some((parts.tokens()?, grade))
+        })
+    };
+    // "mesh 20 100 g" is no mesh of 20,100.
+    let found = read(true);
+    if found.is_some_and(|(_, grade)| grade.is_in_range()) {
+        return found;
+    }
+    read(false).or(found)
 }
 
-fn grade(scale: Scale, value: Option<f64>, range: std::ops::RangeInclusive<f64>) -> Option<Grade> {
-    let value = value.filter(|value| range.contains(value))?;
-    Some(Grade { scale, value })
+/// The grade that tokens begin with, and how many it takes.
+pub(crate) fn read(tokens: &[Token], context: Context) -> Option<(usize, Grade)> {
+    any(tokens, context).filter(|(_, grade)| grade.is_in_range())
+}
+
+fn grade(scale: Scale, value: Option<f64>) -> Option<Grade> {
+    Some(Grade {
+        scale,
+        value: value?,
+    })
 }
 
 /// A number after the name of its scale: "grit size: 80".
@@ -123,14 +147,16 @@ fn after(parts: &mut Parts<'_>) -> Option<f64> {
 }
 
 /// "P80", "#80", "80 grit", "grit 80", "80-grade grit".
-fn grit(parts: &mut Parts<'_>, _: Context) -> Option<Grade> {
+fn grit(parts: &mut Parts<'_>, context: Context) -> Option<Grade> {
     const GRIT: &[&str] = &["grit", "grits"];
+    // "P2" is also a mask, "#1" also the best.
+    let sure = |grade: &Grade| context.abrasive || grade.is_in_range();
     let (p, value) = if parts.eat(&["p"]) {
-        (true, parts.number())
+        return grade(Scale::Grit { p: true }, parts.number()).filter(sure);
     } else if parts.eat(&["#"]) {
         let value = parts.number();
-        parts.eat(GRIT);
-        (false, value)
+        let said = parts.eat(GRIT);
+        return grade(Scale::Grit { p: false }, value).filter(|grade| said || sure(grade));
     } else if parts.eat(GRIT) {
         parts.pass(FILLERS);
         let p = parts.eat(&["p"]);
@@ -143,7 +169,7 @@ fn grit(parts: &mut Parts<'_>, _: Context) -> Option<Grade> {
         }
         (false, value)
     };
-    grade(Scale::Grit { p }, value, 6.0..=30_000.0)
+    grade(Scale::Grit { p }, value)
 }
 
 /// "20 mesh", "mesh 20", "mesh size 20".
@@ -152,14 +178,23 @@ fn mesh(parts: &mut Parts<'_>, _: Context) -> Option<Grade> {
         after(parts)
     } else {
         parts.eat(&["#"]);
-        let value = parts.number();
+        let spelt = parts.text()?.starts_with(char::is_alphabetic);
+        // "two mesh bags"
+        let value = parts.number().filter(|value| !spelt || *value >= 10.0);
         if !parts.eat(&["mesh"]) {
             return None;
         }
         parts.eat(&["size"]);
         value
     };
-    grade(Scale::Mesh, value, 2.0..=3000.0)
+    grade(Scale::Mesh, value)
+}
+
+/// "14-wale corduroy".
+fn wale(parts: &mut Parts<'_>, _: Context) -> Option<Grade> {
+    let value = parts.number()?;
+    let said = parts.eat(&["wale", "wales"]);
+    grade(Scale::Wale, Some(value).filter(|_| said))
 }
 
 /// "Shore A 60", "60A Shore", "durometer 60", "30A" of a polymer.
@@ -207,14 +242,15 @@ fn shore(parts: &mut Parts<'_>, context: Context) -> Option<Grade> {
         if !said && (letter.is_none() || !context.polymer || cloth) {
             return None;
         }
-        value
+        // "240A", "3D"
+        value.filter(|value| said || (LEAST_GLUED..=100.0).contains(value))
     };
     let scale = if d == Some(true) {
         Scale::ShoreD
     } else {
         Scale::ShoreA
     };
-    grade(scale, value, 0.0..=100.0)
+    grade(scale, value)
 }
 
 /// "Mohs 7", "7 Mohs", "hardness 7 on the Mohs scale".
@@ -231,7 +267,7 @@ fn mohs(parts: &mut Parts<'_>, _: Context) -> Option<Grade> {
         parts.eat(&["hardness", "scale"]);
         value.filter(|_| said)
     };
-    grade(Scale::Mohs, value, 1.0..=10.0)
+    grade(Scale::Mohs, value)
 }
 
 /// "Ra 0.8", "Ra = 3.2 µm", "0.4 µm Ra", "roughness of 6.3 µm".
@@ -258,7 +294,7 @@ fn ra(parts: &mut Parts<'_>, _: Context) -> Option<Grade> {
     }
     // Binary fractions are not shown.
     let value = (value * factor * 1e6).round() / 1e6;
-    grade(Scale::Ra, Some(value), 0.001..=200.0)
+    grade(Scale::Ra, Some(value))
 }
 
 /// "400 thread count", "thread count of 400", "400 TC".
@@ -268,13 +304,16 @@ fn threads(parts: &mut Parts<'_>, _: Context) -> Option<Grade> {
         after(parts)
     } else {
         let value = parts.number();
-        let counted = parts.eat(THREADS)
-            && (parts.eat(&["count"])
-                || parts.eat_all(&["per", "square", "inch"])
-                || parts.eat_all(&["per", "inch"]));
-        value.filter(|_| counted || parts.eat(&["tc"]))
+        let counted = |parts: &mut Parts<'_>| {
+            parts.eat_all(&["count"]) || parts.eat_all(&["per", "square", "inch"])
+        };
+        let screw = |parts: &mut Parts<'_>| parts.eat_all(&["per", "inch"]);
+        let said = parts.eat(&["tc"]) || (parts.eat(THREADS) && counted(parts));
+        // Of a screw, too, threads are counted.
+        let may = |value: &f64| Scale::Threads.range().contains(value);
+        value.filter(|value| said || (may(value) && screw(parts)))
     };
-    grade(Scale::Threads, value, 20.0..=3000.0)
+    grade(Scale::Threads, value)
 }
 
 /// "15 denier", "15 den", "denier 15", "1000D nylon", "100 dtex".
@@ -285,14 +324,14 @@ fn denier(parts: &mut Parts<'_>, context: Context) -> Option<Grade> {
     } else {
         let value = parts.number();
         if context.textile && parts.glued_letter(&["d"]).is_some() {
-            value
+            value.filter(|value| *value >= LEAST_GLUED)
         } else if parts.eat(&["dtex"]) {
             value.map(|dtex| (90.0 * dtex).round() / 100.0)
         } else {
             value.filter(|_| parts.eat(DENIER))
         }
     };
-    grade(Scale::Denier, value, 1.0..=10_000.0)
+    grade(Scale::Denier, value)
 }
 
 /// "12 mm pile", "pile of 30 mm", "pile height 1.5 cm".
@@ -329,11 +368,10 @@ fn pile(parts: &mut Parts<'_>, _: Context) -> Option<Grade> {
             return None;
         }
     }
-    grade(
-        Scale::Pile,
-        Some((1e3 * value * factor).round() / 1e3),
-        0.2..=200.0,
-    )
+    // "a 300 mm pile of leaves"
+    let heap = !named && parts.clone().eat(&["of"]);
+    grade(Scale::Pile, Some((1e3 * value * factor).round() / 1e3))
+        .filter(|grade| grade.is_in_range() || !heap)
 }
 
 /// Cuts of files (ISO 234) and of Swiss files, and about how many teeth they have per inch at 200 mm;
@@ -372,7 +410,7 @@ fn cut(parts: &mut Parts<'_>, context: Context) -> Option<Grade> {
             found.then_some((after, *teeth))
         })?;
     *parts = after;
-    grade(Scale::Cut, Some(teeth), 1.0..=1000.0)
+    grade(Scale::Cut, Some(teeth))
 }
 
 #[cfg(test)]
@@ -435,6 +473,21 @@ mod tests {
             ("file, second cut", "second cut"),
             ("Swiss cut 00 file", "cut 00"),
             ("half-inch … 0.5 inch pile rug", "12.7 mm pile"),
+            ("half-inch pile rug", "12.7 mm pile"),
+            ("3/4 inch pile rug", "19.05 mm pile"),
+            ("1 1/2\" pile rug", "38.1 mm pile"),
+            ("half a millimetre pile rug", "0.5 mm pile"),
+            ("1,5 cm pile rug", "15 mm pile"),
+            ("P1,000 sandpaper", "P1000"),
+            ("1 000 grit sandpaper", "1000 grit"),
+            ("P1.000 sandpaper", "P1000"),
+            ("steel, Ra 3.175", "Ra 3.175 µm"),
+            ("P1k sandpaper", "P1000"),
+            ("eighty-grit sandpaper", "80 grit"),
+            ("four hundred thread count sheets", "400 thread count"),
+            ("mesh 20 100 g of sand", "20 mesh"),
+            ("14-wale corduroy", "14 wale"),
+            ("sandpaper –80 grit", "80 grit"),
         ] {
             assert_eq!(shown(prompt).as_deref(), Some(expected), "{prompt}");
             assert_eq!(
@@ -458,7 +511,10 @@ mod tests {
             "Shore A 400 rubber",
             "a pile of 30 leaves",
             "2 threads of wool",
+            "two mesh bags",
             "4D",
+            "3D-printed plastic",
+            "3D nylon",
         ] {
             assert_eq!(shown(prompt), None, "{prompt}");
         }

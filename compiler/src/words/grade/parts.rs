@@ -18,13 +18,17 @@ const MOST: usize = 10;
 pub(super) struct Parts<'a> {
     all: Vec<Part<'a>>,
     at: usize,
+    /// Whether a space or a point may group thousands.
+    pub(super) grouped: bool,
 }
 
 impl<'a> Parts<'a> {
-    pub(super) fn new(tokens: &'a [Token]) -> Self {
+    pub(super) fn new(tokens: &'a [Token], grouped: bool) -> Self {
         let mut all = Vec::new();
         for (n, token) in tokens.iter().take(MOST).enumerate() {
             let mut rest = match token {
+                // A hyphen before a number that comes first is rather a dash: "sandpaper -80 grit".
+                Token::Word(word) if n == 0 => word.trim_start_matches('-'),
                 Token::Word(word) => word.as_str(),
                 Token::Break => "",
             };
@@ -39,11 +43,20 @@ impl<'a> Parts<'a> {
                 }
             }
         }
-        Self { all, at: 0 }
+        Self {
+            all,
+            at: 0,
+            grouped,
+        }
     }
 
     fn part(&self) -> Option<Part<'a>> {
         self.all.get(self.at).copied()
+    }
+
+    /// The next part.
+    pub(super) fn text(&self) -> Option<&'a str> {
+        Some(self.part()?.text)
     }
 
     /// Whether the next part belongs to the same token.
@@ -51,6 +64,11 @@ impl<'a> Parts<'a> {
         self.at
             .checked_sub(1)
             .is_some_and(|before| self.all[before].tokens.is_none())
+    }
+
+    /// Passes over a part.
+    pub(super) fn next(&mut self) {
+        self.at += 1;
     }
 
     /// Reads one of these words.
@@ -75,12 +93,6 @@ impl<'a> Parts<'a> {
         while self.eat(&[""]) || self.eat(words) {}
     }
 
-    pub(super) fn number(&mut self) -> Option<f64> {
-        let value = self.part()?.text.parse::<f64>().ok()?;
-        self.at += 1;
-        Some(value)
-    }
-
     /// The letter that follows a number without a space.
     pub(super) fn glued_letter(&mut self, letters: &[&'static str]) -> Option<&'static str> {
         let text = self.part().filter(|_| self.is_glued())?.text;
@@ -97,7 +109,7 @@ impl<'a> Parts<'a> {
 
 /// Bytes of the first run of one kind.
 fn run(text: &str) -> usize {
-    let digit = |c: char| c.is_ascii_digit() || c == '.';
+    let digit = |c: char| c.is_ascii_digit() || ['.', ',', '/'].contains(&c);
     let mut characters = text.char_indices();
     let Some((_, first)) = characters.next() else {
         return 0;

@@ -181,6 +181,8 @@ const SHEET: f64 = 200.0;
 const NYLON: f64 = 40.0;
 /// Teeth of a plain file per inch.
 const BASTARD: f64 = 30.0;
+/// Ribs of plain corduroy per inch.
+const CORDUROY: f64 = 11.0;
 /// Pile of a plain carpet, mm.
 const CARPET_MM: f64 = 8.0;
 
@@ -195,6 +197,7 @@ impl Grade {
             Scale::Threads => SHEET / self.value,
             Scale::Denier => (self.value / NYLON).sqrt(),
             Scale::Cut => BASTARD / self.value,
+            Scale::Wale => CORDUROY / self.value,
             Scale::Pile => (self.value / CARPET_MM).sqrt(),
             Scale::ShoreA | Scale::ShoreD | Scale::Mohs => 1.0,
         }

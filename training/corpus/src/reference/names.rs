@@ -3,7 +3,7 @@
 use super::{EMBEDDED, EMBEDDED_LEXICON, schema};
 use asperity::prompt::{
     phrase,
-    reading::{Token, is_colour, is_grammar, key, normalise},
+    reading::{Token, in_one_word, is_colour, is_grammar, key, normalise},
     woods,
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -38,8 +38,8 @@ const JOINS: [&str; 24] = [
 ];
 
 /// Lines `key TAB name` in the order of their keys, the name left out where it equals the key. Of
-/// several names of one key the first counts: materials, then synonyms, then the lexicon, then woods; of
-/// the lexicon that which is its own key.
+/// several names of one key, or of keys that are alike in one word, the first counts: materials, then synonyms, then the
+/// lexicon, then woods; of the lexicon that which is its own key.
 ///
 /// # Panics
 /// If the committed corpus is broken, which a test of this crate finds first.
@@ -50,32 +50,26 @@ pub fn table() -> String {
         .map(|(file, text)| schema::parse(file, text).expect("the committed corpus"))
         .collect();
     let materials = || families.iter().flat_map(|family| &family.material);
-    let mut names: BTreeMap<String, String> = BTreeMap::new();
-    let mut add = |name: &str| {
-        if let Some(key) = key(name) {
-            names.entry(key).or_insert_with(|| name.to_lowercase());
-        }
-    };
-    materials().for_each(|material| add(&material.name));
-    materials().for_each(|material| material.synonyms.iter().for_each(|name| add(name)));
+    let mut names = Names::default();
+    for material in materials() {
+        names.add(&material.name);
+    }
+    for name in materials().flat_map(|material| &material.synonyms) {
+        names.add(name);
+    }
     let things: Vec<String> = EMBEDDED_LEXICON
         .iter()
         .filter(|(file, _)| THINGS.contains(file) || *file == "everyday.toml")
         .flat_map(|(file, text)| things(file, text))
         .collect();
     // "blue brick" is brick.
-    let known: BTreeSet<String> = names.keys().cloned().collect();
+    let known: BTreeSet<String> = names.by_key.keys().cloned().collect();
     let coloured = |name: &String| {
         let rest = name.split_once(' ').filter(|(first, _)| is_colour(first));
         rest.and_then(|(_, rest)| key(rest))
             .is_some_and(|key| known.contains(&key))
     };
     let things: Vec<String> = things.into_iter().filter(|name| !coloured(name)).collect();
-    let mut add = |name: &str| {
-        if let Some(key) = key(name) {
-            names.entry(key).or_insert_with(|| name.to_lowercase());
-        }
-    };
     // "a piece of wood", "plain wood", "rough wood": "wood" is a name.
     let heads: Vec<String> = EMBEDDED_LEXICON
         .iter()
@@ -83,19 +77,16 @@ pub fn table() -> String {
         .flat_map(|(file, text)| heads(file, text))
         .collect();
     let is_key = |name: &&String| key(name).is_some_and(|key| key == **name);
-    things.iter().filter(is_key).for_each(|name| add(name));
-    things.iter().for_each(|name| add(name));
-    heads.iter().for_each(|name| add(name));
+    let keys_first = things.iter().filter(is_key).chain(&things).chain(&heads);
+    keys_first.for_each(|name| names.add(name));
     for wood in woods() {
         // By itself, hardly any text says that it is of wood: "ipe".
         let whole = match wood.ends_with("wood") {
             true => wood.to_owned(),
             false => format!("{wood} wood"),
         };
-        for name in [wood, &whole] {
-            let key = key(name).expect("a name");
-            names.entry(key).or_insert_with(|| whole.clone());
-        }
+        names.add_as(wood, &whole);
+        names.add_as(&whole, &whole);
     }
     // "glass" and "nylon" are no plurals without their s: they stand before or behind others.
     let mut firsts: BTreeMap<&str, usize> = BTreeMap::new();
@@ -105,7 +96,7 @@ pub fn table() -> String {
     let often = firsts.iter().filter(|(_, times)| **times >= OFTEN);
     let often = often.map(|(first, _)| *first);
     for word in often.chain(heads.iter().map(String::as_str)) {
-        if let Some(name) = names.get_mut(word) {
+        if let Some(name) = names.by_key.get_mut(word) {
             word.clone_into(name);
         }
     }
@@ -116,7 +107,28 @@ pub fn table() -> String {
             format!("{key}\t{name}\n")
         }
     };
-    names.iter().map(line).collect()
+    names.by_key.iter().map(line).collect()
+}
+
+/// Names by their keys, and by their keys in one word.
+#[derive(Default)]
+struct Names {
+    by_key: BTreeMap<String, String>,
+    by_letters: BTreeMap<String, String>,
+}
+
+impl Names {
+    fn add(&mut self, name: &str) {
+        self.add_as(name, &name.to_lowercase());
+    }
+
+    /// Adds what is said for a name, unless it is there.
+    fn add_as(&mut self, said: &str, name: &str) {
+        let Some(key) = key(said) else { return };
+        let letters = self.by_letters.entry(in_one_word(&key));
+        let name = letters.or_insert_with(|| name.to_owned());
+        self.by_key.entry(key).or_insert_with(|| name.clone());
+    }
 }
 
 /// Files of the lexicon that say how things feel.

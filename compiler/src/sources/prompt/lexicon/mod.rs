@@ -3,8 +3,8 @@
 
 mod names;
 
-pub use names::key;
 pub(super) use names::{LONGEST, is_quality, keys, name, names, qualities, vocabulary};
+pub use names::{in_one_word, key};
 
 use crate::{learned::text::Vocabulary, words::singular};
 

@@ -7,7 +7,8 @@
 //! `cargo run --release -p asperity-corpus --example names`.
 
 use crate::learned::text::Vocabulary;
-use crate::words::{Token, normalise, singular};
+use crate::words::{Token, normalise, singular, without_accents};
+use std::{collections::HashMap, sync::LazyLock};
 
 const NAMES: &str = include_str!("names.tsv");
 const QUALITIES: &str = include_str!("qualities.txt");
@@ -37,10 +38,38 @@ fn key_of(words: &[&str]) -> String {
     key
 }
 
+/// Names by their keys, as they are spelt in one word and without accents.
+static IN_ONE_WORD: LazyLock<HashMap<String, &'static str>> = LazyLock::new(|| {
+    let name = |line: &'static str| {
+        let (key, name) = line.split_once('\t').unwrap_or((line, line));
+        (in_one_word(key), name)
+    };
+    NAMES.lines().map(name).collect()
+});
+/// Letters of a name that may be spelt otherwise: "lame" is no lamé.
+const LEAST_LETTERS: usize = 5;
+
+/// What all spellings of a name have in common: "steel wool", "steelwool"; "crêpe", "crepe".
+#[must_use]
+pub fn in_one_word(key: &str) -> String {
+    without_accents(key).replace(' ', "")
+}
+
 /// The name that these words are, as the corpus spells it.
 pub(in crate::sources::prompt) fn name(words: &[&str]) -> Option<&'static str> {
-    let line = Vocabulary::new(NAMES).line("", &key_of(words))?;
-    Some(line.split_once('\t').map_or(line, |(_, name)| name))
+    let key = key_of(words);
+    if let Some(line) = Vocabulary::new(NAMES).line("", &key) {
+        return Some(line.split_once('\t').map_or(line, |(_, name)| name));
+    }
+    // "tea towels", "bees wax"
+    let joined = singular(&words.concat()).into_owned();
+    [key, joined]
+        .iter()
+        .map(|key| in_one_word(key))
+        .find_map(|key| {
+            let long = key.len() >= LEAST_LETTERS;
+            IN_ONE_WORD.get(&key).copied().filter(|_| long)
+        })
 }
 
 /// Whether the lexicon says of something how it feels by this word.
@@ -96,5 +125,31 @@ mod tests {
         assert_eq!(name(&["corks"]), name(&["cork"]));
         assert_eq!(key("Steel-Wool"), key("steel wool"));
         assert_eq!(name(&["zither", "soup"]), None);
+    }
+
+    #[test]
+    fn a_name_is_the_same_in_one_word_and_in_several_and_without_accents() {
+        for (words, other) in [
+            (&["steelwool"][..], &["steel", "wool"][..]),
+            (&["teatowels"], &["tea", "towel"]),
+            (&["steelwool", "pad"], &["steel", "wool", "pad"]),
+            (&["bees", "wax"], &["beeswax"]),
+            (&["sand", "paper"], &["sandpaper"]),
+            (&["crepe", "paper"], &["crêpe", "paper"]),
+            (&["suède"], &["suede"]),
+        ] {
+            assert!(name(words).is_some(), "{words:?}");
+            assert_eq!(name(words), name(other), "{words:?}");
+        }
+        assert_eq!(name(&["lame"]), None);
+    }
+
+    /// Claim: no two spellings of one name lead to two names.
+    #[test]
+    fn every_spelling_is_one_name() {
+        for line in NAMES.lines() {
+            let (key, shown) = line.split_once('\t').unwrap_or((line, line));
+            assert_eq!(IN_ONE_WORD[&in_one_word(key)], shown, "{key}");
+        }
     }
 }

@@ -18,6 +18,7 @@
 
 mod closed_class;
 mod description;
+mod graphics;
 mod parts;
 mod read;
 mod segment;
@@ -26,17 +27,23 @@ mod spelling;
 mod tests;
 mod word_sense;
 
-pub use super::lexicon::key;
+pub use super::lexicon::{in_one_word, key};
 pub use crate::words::{Token, normalise, shown};
 pub use closed_class::{is_colour, is_grammar};
 pub use spelling::Correction;
 
 use super::phrase::{self, Phrase};
-use crate::{learned::text::WordTable, words::grade::Grade};
+use crate::{
+    learned::text::WordTable,
+    words::{
+        grade::{self, Grade, Note},
+        singular, without_accents,
+    },
+};
 
 /// What tells two readers apart: the CRC-32 of what is read of the prompts in `training/corpora/evaluation/`, and
 /// of their grammar, which the test `judged::the_version_of_the_reader_follows_what_it_reads` computes.
-pub const VERSION: &str = "7f163d54";
+pub const VERSION: &str = "d72512f2";
 
 /// Words of a prompt that are read: several times what an encoder reads of them.
 pub const MOST_WORDS: usize = 1024;
@@ -62,6 +69,8 @@ pub struct Reading {
     pub ignored: Vec<String>,
     /// A word that was misspelt.
     pub correction: Option<Correction>,
+    /// What to tell of its numbers: those that are out of range, and those that may be read in two ways.
+    pub numbers: Vec<String>,
     /// Two numbers of which only one can hold, the one that is taken last.
     pub conflict: Option<[Grade; 2]>,
     /// Words after the first [`MOST_WORDS`], which were not read.
@@ -73,6 +82,13 @@ impl Reading {
     #[must_use]
     pub fn text(&self) -> String {
         self.words.join(" ")
+    }
+
+    /// Whether any word of this text is encoded.
+    pub(super) fn holds(&self, text: &str) -> bool {
+        let words = || self.words.iter().flat_map(|word| word.split(' '));
+        text.split(' ')
+            .any(|word| words().any(|said| singular(said) == singular(word)))
     }
 }
 
@@ -86,22 +102,30 @@ impl Reader {
     /// Reads a prompt.
     #[must_use]
     pub fn read(&self, prompt: &str) -> Reading {
-        let mut tokens = normalise(prompt);
+        let (prompt, mut gone) = graphics::described(prompt);
+        let mut tokens = normalise(&prompt);
         let beyond = tokens.iter().skip(MOST_WORDS);
         let cut = beyond.filter(|token| **token != Token::Break).count();
         tokens.truncate(MOST_WORDS);
+        let is_known = |word: &str| spelling::is_known(word, &self.table);
+        graphics::divide(&mut tokens, &mut gone, is_known);
+        let numbers = grade::notes(&mut tokens);
+        gone.extend(numbers.iter().filter_map(Note::unread));
         let correction = spelling::correct(&mut tokens, &self.table);
         let items = segment::segment(&tokens, |word| word_sense::sense(&self.table, word));
-        let (items, mut gone) = parts::divide(items);
+        let items = parts::divide(items, &mut gone);
         // Code, paths and markup are no prose, even where a word of them is a name.
         let prose = !prompt.contains(['{', '}', '\\']);
         let mut reading = read::read(&items, prose);
         reading.ignored.append(&mut gone);
+        reading.numbers = numbers.iter().map(Note::to_string).collect();
         if reading.words.is_empty() {
             // Signs alone: there is nothing to divide.
-            let words = vec![shown(prompt).trim().to_owned()];
+            let words = vec![shown(&prompt).trim().to_owned()];
             return Reading { words, ..reading };
         }
+        // Where nothing is named, a word that no one knows may say anything.
+        reading.says &= !reading.names.is_empty() || self.knows_all(&tokens);
         let phrase = phrase::parse(&reading.words);
         Reading {
             conflict: conflict(&phrase, &reading.words),
@@ -110,6 +134,18 @@ impl Reader {
             cut,
             ..reading
         }
+    }
+
+    /// Whether every word is English.
+    fn knows_all(&self, tokens: &[Token]) -> bool {
+        tokens.iter().all(|token| match token {
+            Token::Word(word) => {
+                // Of other letters, only those of micrometres are English.
+                let foreign = |c: char| c.is_alphabetic() && !c.is_ascii() && c != 'μ';
+                !without_accents(word).contains(foreign) && spelling::is_known(word, &self.table)
+            }
+            Token::Break => true,
+        })
     }
 }
 

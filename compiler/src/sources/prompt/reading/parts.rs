@@ -15,20 +15,19 @@ const WHOLE: &[&str] = &[
     "body", "end", "head", "middle", "piece", "point", "side", "surface", "tip", "top",
 ];
 
-/// Items without what a part belongs to, or without the part; and the words that went.
-pub(super) fn divide(mut items: Vec<Item>) -> (Vec<Item>, Vec<String>) {
-    let mut gone = Vec::new();
+/// Items without what a part belongs to, or without the part; the words that went are added to those that are `gone`.
+pub(super) fn divide(mut items: Vec<Item>, gone: &mut Vec<String>) -> Vec<Item> {
     let mut n = 0;
     while n < items.len() {
         let part = singular(&items[n].text);
         if is_own_part(&part) {
-            own(&mut items, n, &mut gone);
+            own(&mut items, n, gone);
         } else if is(WHOLE, &part) {
-            whole(&mut items, n, &mut gone);
+            whole(&mut items, n, gone);
         }
         n += 1;
     }
-    (items, gone)
+    items
 }
 
 fn is(parts: &[&str], part: &str) -> bool {

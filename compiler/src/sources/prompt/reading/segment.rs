@@ -61,12 +61,7 @@ const COMPARED: &[&str] = &["more", "less", "least", "most", "too", "half"];
 pub(super) fn segment(tokens: &[Token], sense: impl Fn(&str) -> Sense) -> Vec<Item> {
     let mut items = Vec::new();
     let mut at = 0;
-    let may = |token: &Token| match token {
-        Token::Word(word) => word.contains(|c: char| c.is_ascii_digit()) || word == "file",
-        Token::Break => false,
-    };
-    let graded = tokens.iter().any(may);
-    let context = graded.then(|| grade::Context::of(tokens));
+    let context = grade::may_be_in(tokens).then(|| grade::Context::of(tokens));
     while at < tokens.len() {
         if let Some((count, grade)) = context.and_then(|about| grade::read(&tokens[at..], about)) {
             items.push(item(&grade.to_string(), Class::Touch));
@@ -168,7 +163,7 @@ fn numbered(items: &mut Vec<Item>) {
     };
     let mut n = 0;
     while n < items.len() {
-        let number = items[n].text.parse::<u32>().ok();
+        let number = items[n].text.trim_start_matches('-').parse::<u32>().ok();
         let mut first = n;
         while first > 0
             && (items[first - 1].class == Class::Break
@@ -220,10 +215,7 @@ fn longest(words: &[&str], compared: bool) -> Option<(usize, &'static str)> {
     (1..=words.len()).rev().find_map(|count| {
         let alone = count == 1 && (is_function(first) || is_act(first) || degree);
         let whole = !is_determiner(first) && !alone;
-        let said = &words[..count];
-        // "bees wax" is beeswax.
-        let joined = || lexicon::name(&[said.concat().as_str()]).filter(|_| count == 2);
-        let name = lexicon::name(said).or_else(joined).filter(|_| whole)?;
+        let name = lexicon::name(&words[..count]).filter(|_| whole)?;
         Some((count, name))
     })
 }

@@ -1,7 +1,7 @@
 //! Misspellings: a word that no one knows, and that is nearly one of the reader's.
 
 use super::closed_class::{is_colour, is_grammar};
-use crate::words::{Token, singular};
+use crate::words::{Token, singular, spelled, without_accents};
 use crate::{
     learned::text::{Vocabulary, WordTable},
     sources::prompt::{lexicon, phrase},
@@ -18,6 +18,11 @@ const SHORTEST: usize = 3;
 const SHORT: usize = 5;
 /// Letters of a name of several words in which an error is looked for.
 const LONG: usize = 8;
+/// Letters of each of two words that stand without a space.
+const PART: usize = 4;
+/// Letters from which on one error leaves hardly a doubt: many a shorter word of another language is one letter away
+/// from an English one.
+const SURE: usize = 6;
 
 /// A word that was read as another.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -26,11 +31,43 @@ pub struct Correction {
     pub said: String,
     /// What it was read as.
     pub taken: String,
+    /// Whether it may as well be another word: what it was read as is a guess.
+    pub doubtful: bool,
 }
 
-/// Puts a misspelt name right, or the one misspelt word of a prompt.
+/// Puts a misspelt name right, or the one misspelt word of a prompt. Words that only lack the space between them are no
+/// misspellings.
 pub(super) fn correct(tokens: &mut Vec<Token>, table: &WordTable) -> Option<Correction> {
+    part(tokens, table);
     whole(tokens).or_else(|| one_word(tokens, table))
+}
+
+/// Parts words that no one knows between two that say something: "brickwall", "carbonfiber".
+fn part(tokens: &mut Vec<Token>, table: &WordTable) {
+    let mut at = 0;
+    while at < tokens.len() {
+        let parts = match &tokens[at] {
+            Token::Word(word) if word.is_ascii() && !is_known(word, table) => {
+                // "sandstonee" is rather a misspelling.
+                two_words(word).filter(|_| nearest(word).is_none())
+            }
+            _ => None,
+        };
+        if let Some(parts) = parts {
+            tokens.splice(at..=at, parts.map(Token::Word));
+        }
+        at += 1;
+    }
+}
+
+/// The two words that one is put together of: a quality or a name, and a name.
+fn two_words(word: &str) -> Option<[String; 2]> {
+    let is_name = |word: &str| lexicon::name(&[word]).is_some();
+    (PART..=word.len().saturating_sub(PART)).find_map(|at| {
+        let [first, second] = [&word[..at], &word[at..]].map(|part| spelled(part).into_owned());
+        let says = phrase::is_quality(&first) || is_name(&first);
+        (says && is_name(&second)).then_some([first, second])
+    })
 }
 
 /// A prompt that is a name of several words with one error, even where the error makes another word:
@@ -48,7 +85,7 @@ fn whole(tokens: &mut Vec<Token>) -> Option<Correction> {
         let name = lexicon::name(&[*word]).is_some();
         name || is_grammar(word) || phrase::is_quality(word) || lexicon::is_quality(word)
     };
-    if lexicon::name(&words).is_some() || lexicon::name(&[&words.concat()]).is_some() {
+    if lexicon::name(&words).is_some() {
         return None;
     }
     // A wrong digit makes another number, and that is no misspelling.
@@ -66,7 +103,11 @@ fn whole(tokens: &mut Vec<Token>) -> Option<Correction> {
     let taken = lexicon::keys().find(near)?.to_owned();
     let taken_words = taken.split(' ').map(|word| Token::Word(word.to_owned()));
     *tokens = taken_words.collect();
-    Some(Correction { said, taken })
+    Some(Correction {
+        said,
+        taken,
+        doubtful: false,
+    })
 }
 
 /// The one word that nobody knows. Where two are unknown, it is rather another language, or somebody's
@@ -78,7 +119,7 @@ fn one_word(tokens: &mut [Token], table: &WordTable) -> Option<Correction> {
         _ => None,
     });
     let word = unknown.next()?;
-    if unknown.next().is_some() {
+    if unknown.next().is_some() || !word.is_ascii() {
         return None;
     }
     // Beside others, a short word is rather slang: "idk", "org".
@@ -87,10 +128,29 @@ fn one_word(tokens: &mut [Token], table: &WordTable) -> Option<Correction> {
     }
     let taken = nearest(word)?.to_owned();
     let said = std::mem::replace(word, taken.clone());
-    Some(Correction { said, taken })
+    let first = said.as_bytes().first() == taken.as_bytes().first();
+    let sure = first && (said.len() >= SURE || is_swapped(&said, &taken));
+    Some(Correction {
+        said,
+        taken,
+        doubtful: !sure,
+    })
 }
 
-fn is_known(word: &str, table: &WordTable) -> bool {
+/// Whether two words have the same letters.
+fn is_swapped(a: &str, b: &str) -> bool {
+    let [a, b] = [a, b].map(|word| {
+        let mut letters = word.as_bytes().to_vec();
+        letters.sort_unstable();
+        letters
+    });
+    a == b
+}
+
+/// Whether a word is on a list of English; if not it is a misspelling, of another language, or somebody's name. What is
+/// not of Latin letters is no misspelling.
+pub(super) fn is_known(word: &str, table: &WordTable) -> bool {
+    let word = &*without_accents(word);
     let letters = word.chars().all(|c| c.is_ascii_lowercase());
     let own = |word: &str| Vocabulary::new(OWN_WORDS).line("", word).is_some();
     !letters
@@ -103,6 +163,7 @@ fn is_known(word: &str, table: &WordTable) -> bool {
         || lexicon::is_quality(word)
         || own(word)
         || own(&singular(word))
+        || lexicon::name(&[word]).is_some()
         // Looked through from end to end, so last.
         || lexicon::vocabulary().any(|known| known == word)
 }

@@ -137,10 +137,52 @@ fn a_misspelling_is_put_right_and_said() {
     ] {
         assert_eq!(read(prompt).text(), expected, "{prompt:?}");
     }
+    // Only the space between two words is missing.
+    for (prompt, expected) in [
+        ("brickwall", "brick wall"),
+        ("aluminumfoil", "aluminium foil"),
+        ("a polished woodfloor", "polished wood floor"),
+        ("baumwolle", "baumwolle"),
+    ] {
+        let reading = read(prompt);
+        assert_eq!(reading.text(), expected, "{prompt}");
+        assert_eq!(reading.correction, None, "{prompt}");
+    }
+    // An unknown word beside it is rather of another language, accents or none.
+    for prompt in ["grava áspera", "sameto macio"] {
+        assert_eq!(read(prompt).correction, None, "{prompt}");
+    }
     let correction = read("velvit").correction.expect("a correction");
     assert_eq!(
         (correction.said.as_str(), correction.taken.as_str()),
         ("velvit", "velvet")
     );
     assert_eq!(read("velvet").correction, None);
+    for (typed, doubtful) in [
+        ("velvit", false),
+        ("slik", false),
+        ("leahter", false),
+        ("kies", true),
+        ("samt", true),
+        ("kork", true),
+    ] {
+        let correction = read(typed).correction.expect(typed);
+        assert_eq!(correction.doubtful, doubtful, "{typed}");
+    }
+}
+
+#[test]
+fn what_no_list_of_english_holds_says_nothing() {
+    for prompt in [
+        "gravier rugueux",
+        "schleifpapier",
+        "żwir",
+        "sжndpaper",
+        "a rough zorble",
+    ] {
+        assert!(!read(prompt).says, "{prompt}");
+    }
+    for prompt in ["a manhole lid in a downpour", "velvety", "vеlvet"] {
+        assert!(read(prompt).says, "{prompt}");
+    }
 }
