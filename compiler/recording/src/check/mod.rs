@@ -7,6 +7,7 @@ mod label;
 mod scale;
 mod verdict;
 
+pub use scale::{LOADS_N, SPEEDS_MM_S};
 pub use verdict::{Checked, Finding, Kind, Severity};
 
 use crate::{

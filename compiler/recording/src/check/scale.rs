@@ -31,9 +31,10 @@ const UNIT_TOLERANCE: f64 = 1.08;
 const LEAST_GRAVITY: f64 = 0.3;
 /// Least correlation of two channels that measure the same.
 const LEAST_CORRELATION: f64 = 0.3;
-/// Speeds of strokes, mm/s, and loads, N, that a hand has.
-const SPEEDS_MM_S: (f64, f64) = (2.0, 3000.0);
-const LOADS_N: (f64, f64) = (0.02, 100.0);
+/// Speeds of strokes that a hand has, mm/s: least and most.
+pub const SPEEDS_MM_S: (f64, f64) = (2.0, 3000.0);
+/// Loads that a hand has, N: least and most.
+pub const LOADS_N: (f64, f64) = (0.02, 100.0);
 
 pub(super) fn check(
     recording: &Recording,

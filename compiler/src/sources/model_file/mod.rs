@@ -23,6 +23,7 @@ mod emit;
 mod error;
 mod layout;
 mod read;
+mod scale;
 mod schema;
 mod source;
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! A model file as a source.
 
-use super::read::read_with;
+use super::{read::read_with, scale};
 use crate::{
     compiled::ErrorReference,
     pipeline::{Pass, Pipeline, Request},
@@ -44,6 +44,7 @@ impl Source for ModelFile {
         provenance.source = name.to_string_lossy().into_owned();
         provenance.source_crc32 = crc32;
         Ok(Sourced {
+            warnings: scale::doubts(&texture),
             truth: Some(ErrorReference::Texture),
             ..Sourced::new(texture)
         })

@@ -444,3 +444,31 @@ fn the_largest_model_fits_a_file() {
     let bytes = MAX_VERTICES * (2 * MAX_ORDER + 8) * number + MAX_TAPS * MAX_TAP_SAMPLES * number;
     assert!(10 * bytes as u64 <= Kind::Model.max_bytes(), "{bytes}");
 }
+
+/// Claim: speeds in m/s, forces in mN or kN and levels far below what is felt are noted; those of a hand are not.
+#[test]
+fn numbers_that_no_hand_has_are_noted() {
+    let doubts = |speed: f64, force: f64, sigma: f64| -> Vec<String> {
+        let mut texture = builtin::texture();
+        for vertex in &mut texture.grid.vertices {
+            vertex.speed_mm_s *= speed;
+            vertex.force_n *= force;
+            vertex.sigma_m_s2 *= sigma;
+            vertex.gain *= sigma;
+        }
+        super::scale::doubts(&texture)
+    };
+    for (speed, force, sigma) in [(1.0, 1.0, 1.0), (0.1, 0.1, 1.0), (5.0, 10.0, 10.0)] {
+        assert_eq!(doubts(speed, force, sigma), [""; 0]);
+    }
+    for (speed, force, sigma, named) in [
+        (1e-3, 1.0, 1.0, "speed_mm_s"),
+        (100.0, 1.0, 1.0, "speed_mm_s"),
+        (1.0, 1e-3, 1.0, "force_n"),
+        (1.0, 1e3, 1.0, "force_n"),
+        (1.0, 1.0, 1e-4, "sigma_m_s2"),
+    ] {
+        let told = doubts(speed, force, sigma);
+        assert!(told.len() == 1 && told[0].contains(named), "{told:?}");
+    }
+}

@@ -20,6 +20,8 @@ const SHORT: usize = 5;
 const LONG: usize = 8;
 /// Letters of each of two words that stand without a space.
 const PART: usize = 4;
+/// Letters of two words without a space at most; no two words of the reader's have more.
+const BOTH: usize = 40;
 /// Letters from which on one error leaves hardly a doubt: many a shorter word of another language is one letter away
 /// from an English one.
 const SURE: usize = 6;
@@ -47,7 +49,9 @@ fn part(tokens: &mut Vec<Token>, table: &WordTable) {
     let mut at = 0;
     while at < tokens.len() {
         let parts = match &tokens[at] {
-            Token::Word(word) if word.is_ascii() && !is_known(word, table) => {
+            Token::Word(word)
+                if word.len() <= BOTH && word.is_ascii() && !is_known(word, table) =>
+            {
                 // "sandstonee" is rather a misspelling.
                 two_words(word).filter(|_| nearest(word).is_none())
             }
