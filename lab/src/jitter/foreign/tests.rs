@@ -162,6 +162,7 @@ fn what_holds_no_latencies_is_refused_by_line_and_column() {
         ("wakeup_us\n\"26,441\"\n", "line 2: \"26,441\""),
         ("wakeup_cycles\n1\n", "`cycles`"),
         ("wakeup [100ns]\n1\n", "`100ns`"),
+        ("wakeup (100 ns)\n1\n", "`100 ns`"),
         ("wakeup_ns\n0.2\n0.3\n", "below 1 ns"),
         (
             "stage,kind,percentile,value_ns\nwakeup,raw,50,9\n",

@@ -112,7 +112,16 @@ impl Head {
             // A multiple, as in `latency_100ns`.
             || (last.starts_with(|c: char| c.is_ascii_digit())
                 && last.trim_start_matches(|c: char| c.is_ascii_digit()).parse::<Unit>().is_ok());
-        let unit = if is_other {
+        // A multiple, too: `latency (100 ns)`.
+        let multiple = name.rsplit_once(['(', '[', '{']).map(|(_, inside)| inside);
+        let multiple = multiple.filter(|inside| {
+            inside
+                .trim_start()
+                .starts_with(|c: char| c.is_ascii_digit())
+        });
+        let unit = if let Some(inside) = multiple.filter(|_| is_bracketed) {
+            Stated::Other(inside.trim_end_matches([')', ']', '}']).to_owned())
+        } else if is_other {
             Stated::Other(last.to_owned())
         } else if let Ok(unit) = last.parse() {
             words.pop();
