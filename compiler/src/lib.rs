@@ -65,7 +65,6 @@
 mod emit;
 mod passes;
 mod views;
-mod words;
 
 pub mod compiled;
 pub mod driver;

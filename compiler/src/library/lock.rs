@@ -32,7 +32,7 @@ pub struct Pinned {
     pub text_encoder_crc32: u32,
     /// What runs the networks.
     pub backend: String,
-    /// How prompts are read: [`crate::prompt::reading::VERSION`].
+    /// How prompts are read: [`asperity_language::reading::VERSION`].
     pub reader: String,
 }
 

@@ -12,8 +12,8 @@
 //! # Ok::<(), preview::PreviewError>(())
 //! ```
 
-use crate::words::grade;
 use asperity_io::diagnostic::Diagnostic;
+use asperity_language::words::grade;
 use asperity_preview::{Description, EncodeError, Feel, SizeError};
 use asperity_texture::model::{TextureModel, VertexKind, attributes};
 use thiserror::Error;

@@ -266,6 +266,6 @@ fn the_version_of_the_reader_follows_what_it_reads() {
     let version = format!("{:08x}", crc.finalize());
     assert_eq!(
         VERSION, version,
-        "set it in compiler/src/sources/prompt/reading/mod.rs"
+        "set it in compiler/language/src/reading/mod.rs"
     );
 }

@@ -9,7 +9,7 @@ use std::{fs, io, path::Path};
 fn main() -> io::Result<()> {
     let folder = concat!(
         env!("CARGO_MANIFEST_DIR"),
-        "/../../compiler/src/sources/prompt/lexicon"
+        "/../../compiler/language/src/lexicon"
     );
     let write = |file: &str, text: String| fs::write(Path::new(folder).join(file), text);
     write("names.tsv", names::table())?;

@@ -9,7 +9,7 @@ fn the_tables_of_the_reader_are_those_of_the_corpus() {
     let file = |name: &str| {
         let folder = concat!(
             env!("CARGO_MANIFEST_DIR"),
-            "/../../compiler/src/sources/prompt/lexicon/"
+            "/../../compiler/language/src/lexicon/"
         );
         std::fs::read_to_string(format!("{folder}{name}")).expect(name)
     };

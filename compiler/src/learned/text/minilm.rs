@@ -1,8 +1,8 @@
 //! all-MiniLM-L6-v2: WordPiece tokens in lower case to a vector of 384 numbers.
 
 use super::{
+    Vocabulary,
     encoder::{Encoded, TextEncoder, TextError, unit},
-    vocabulary::Vocabulary,
 };
 use asperity_nn::{Session, Tensor};
 use unicode_categories::UnicodeCategories as _;

@@ -5,11 +5,10 @@
 pub mod clip;
 mod encoder;
 pub mod minilm;
-mod vocabulary;
 mod words;
 
+pub use asperity_language::Vocabulary;
 pub use encoder::{Encoded, TextEncoder, TextError};
-pub use vocabulary::Vocabulary;
 pub use words::{WithWords, WordTable};
 
 use std::{path::PathBuf, str::FromStr};

@@ -10,6 +10,7 @@ use super::{
     Vocabulary,
     encoder::{Encoded, TextEncoder, TextError, unit},
 };
+use asperity_language::WordVectors;
 use std::borrow::Cow;
 
 /// Share s of the sentence encoder in a cosine.
@@ -74,12 +75,6 @@ impl WordTable {
         })
     }
 
-    /// Whether a word has a row, as it stands or without the ending of a plural or of a verb: "gravier" is no gravy.
-    #[must_use]
-    pub fn holds(&self, word: &str) -> bool {
-        self.row(word, &ENDINGS[..INFLECTIONS]).is_some()
-    }
-
     /// Adds the row of a word to a sum; false where there is none.
     fn add(&self, word: &str, sum: &mut [f32]) -> bool {
         let Some(row) = self.row(word, &ENDINGS) else {
@@ -94,10 +89,15 @@ impl WordTable {
         }
         true
     }
+}
 
-    /// The unit sum of the rows of a text's words; `None` where none of them is in the table.
-    #[must_use]
-    pub fn vector(&self, text: &str) -> Option<Vec<f32>> {
+impl WordVectors for WordTable {
+    /// "gravier" is no gravy.
+    fn holds(&self, word: &str) -> bool {
+        self.row(word, &ENDINGS[..INFLECTIONS]).is_some()
+    }
+
+    fn vector(&self, text: &str) -> Option<Vec<f32>> {
         let mut sum = vec![0.0; self.width];
         let text = text.to_lowercase();
         let mut any = false;

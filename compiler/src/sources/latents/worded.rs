@@ -4,7 +4,10 @@ use super::{error::EditError, latent_editor::LatentEditor, look::Look, scale::Sc
 use crate::{
     edit_memory::{Axis, Latents, Sliders},
     pipeline::Request,
-    sources::prompt::phrase::{Towards, from_base, relative},
+    sources::prompt::{
+        from_base,
+        phrase::{Towards, relative},
+    },
 };
 use asperity_texture::model::{attributes::Attributes, shift::Shift};
 

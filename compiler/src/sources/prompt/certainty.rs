@@ -1,12 +1,12 @@
 //! How well what a prompt says is known.
 
 use super::{
-    lexicon::is_name,
     phrase::Phrase,
     prompt_compiler::PromptCompiler,
     reading::{Correction, Reading},
 };
 use crate::learned::Certainty;
+use asperity_language::lexicon::is_name;
 
 impl PromptCompiler {
     /// What was read is known where it is one name, with qualities and numbers at most; close where it is put

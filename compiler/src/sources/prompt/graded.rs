@@ -1,7 +1,9 @@
 //! How far a number moves the attributes of a material.
 
 use super::{PromptCompiler, PromptError, named_things::Thing};
-use crate::words::grade::{Grade, PAPERS, Scale, grit_um, is_paper, janka, own_grain_um};
+use asperity_language::words::grade::{
+    Grade, PAPERS, Scale, grit_um, is_paper, janka, own_grain_um,
+};
 use asperity_texture::model::shift::Scales;
 
 /// ln Hz of a tap by which a pile with a relief e times as coarse yields more.

@@ -3,7 +3,7 @@
 use super::{
     Projection, PromptCompiler, PromptError,
     named_things::{Thing, Things},
-    phrase::{self, Phrase},
+    phrase::Phrase,
 };
 use crate::learned::{Decoded, Latent, texture};
 use asperity_texture::model::{
@@ -61,7 +61,7 @@ impl PromptCompiler {
                 } else {
                     (projection.z, self.wanted(projection)?)
                 };
-                (z, phrase::changed(&base.wanted, &said, changes))
+                (z, super::changed(&base.wanted, &said, changes))
             }
             Phrase::Graded { base, grades } => {
                 let graded = self.graded(base, grades)?;

@@ -23,27 +23,28 @@
 //! ```
 
 mod certainty;
+mod changed;
 mod compiled_prompt;
 mod encoding_cache;
 mod error;
-mod explained;
 mod graded;
-mod lexicon;
 mod meaning;
 mod named_things;
-pub mod phrase;
 mod prompt_compiler;
-pub mod reading;
 mod report;
 mod source;
 mod suggestions;
 mod understood;
 
-pub use crate::words::grade::woods;
+#[cfg(test)]
+mod reading_tests;
+
+pub use asperity_language::reading::Taken;
+pub use asperity_language::{phrase, reading, words::grade::woods};
 pub use asperity_texture::model::shift::Shift;
+pub use changed::{STEP, changed, from_base};
 pub use compiled_prompt::{CompiledPrompt, Nearest, Options};
 pub use error::PromptError;
-pub use explained::Taken;
 pub use meaning::Meaning;
 pub use prompt_compiler::{Projection, PromptCompiler};
 pub use source::{KIND, Picture, Prompt};

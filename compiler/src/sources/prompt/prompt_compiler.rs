@@ -10,8 +10,11 @@ use super::{
 use crate::{
     edit_memory::{History, Latents, Memory},
     learned::{
-        Certainty, Decoded, Files, Latent, LearnedModel, ModelError, embedded, friction::Neighbour,
-        inference::Backend, text::TextEncoder, texture,
+        Certainty, Decoded, Files, Latent, LearnedModel, ModelError, embedded,
+        friction::Neighbour,
+        inference::Backend,
+        text::{TextEncoder, WordTable},
+        texture,
     },
     pipeline::{Pass, Pipeline, Ringing},
     sources::Sourced,
@@ -32,7 +35,7 @@ const KEPT_PROMPT_BYTES: usize = 2048;
 pub struct PromptCompiler {
     pub(super) text: Box<dyn TextEncoder>,
     model: LearnedModel,
-    reader: Reader,
+    reader: Reader<WordTable>,
     pub(super) things: Things,
     /// Those that the model knows by name.
     pub(super) known: Things,

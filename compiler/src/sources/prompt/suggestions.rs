@@ -1,6 +1,7 @@
 //! Words that a prompt may hold, for suggestions while someone types one.
 
-use super::{lexicon, phrase};
+use super::phrase;
+use asperity_language::lexicon;
 
 /// Names of materials and things, and the qualities that the grammar or the lexicon knows: in lower case but for
 /// proper names, sorted, each once.

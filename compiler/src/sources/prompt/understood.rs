@@ -4,7 +4,7 @@
 //! they mean; of emoji hardly any. What they cannot read still moves the vector, so the user is warned.
 
 use super::PromptError;
-use crate::words::in_letters;
+use asperity_language::words::in_letters;
 use std::mem;
 
 /// Characters of a prompt that a message repeats.

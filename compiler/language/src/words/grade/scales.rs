@@ -80,7 +80,7 @@ const SIEVES: &[(f64, f64)] = &[
 ];
 
 /// Sandpaper that the model knows: its grain, µm, and its name.
-pub(crate) const PAPERS: [(f64, &str); 5] = [
+pub const PAPERS: [(f64, &str); 5] = [
     (269.0, "60-grit sandpaper"),
     (125.0, "120-grit sandpaper"),
     (68.0, "220-grit sandpaper"),
@@ -122,7 +122,8 @@ const GRAINS: &[(&[&str], f64)] = &[
 const PAPER: f64 = 100.0;
 
 /// Whether a name is that of sandpaper in general, which the model knows by its grades.
-pub(crate) fn is_paper(name: &str) -> bool {
+#[must_use]
+pub fn is_paper(name: &str) -> bool {
     const NAMES: &[&str] = &[
         "sandpaper",
         "sand paper",
@@ -155,13 +156,15 @@ pub(crate) fn is_abrasive(name: &str) -> bool {
 }
 
 /// Grain of a material where none is stated, µm.
-pub(crate) fn own_grain_um(name: &str) -> f64 {
+#[must_use]
+pub fn own_grain_um(name: &str) -> f64 {
     let holds = |words: &&(&[&str], f64)| name.split(' ').any(|word| words.0.contains(&word));
     GRAINS.iter().find(holds).map_or(PAPER, |(_, um)| *um)
 }
 
 /// Grain of a grit, µm: by JIS for stones, by FEPA for all else, as grit without a letter is sold.
-pub(crate) fn grit_um(number: f64, name: &str) -> f64 {
+#[must_use]
+pub fn grit_um(number: f64, name: &str) -> f64 {
     let stone = name.split(' ').any(|word| STONES.contains(&word));
     // JIS numbers its macrogrits as FEPA does.
     let fine = number >= JIS[0].0;
@@ -188,7 +191,8 @@ const CARPET_MM: f64 = 8.0;
 
 impl Grade {
     /// How much coarser the relief is than the named material's own; 1 for numbers that do not concern relief.
-    pub(crate) fn coarser(self, name: &str) -> f64 {
+    #[must_use]
+    pub fn coarser(self, name: &str) -> f64 {
         match self.scale {
             Scale::Grit { .. } => grit_um(self.value, name) / own_grain_um(name),
             Scale::Mesh => mesh_um(self.value) / own_grain_um(name),

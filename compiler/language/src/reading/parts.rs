@@ -4,11 +4,11 @@ use super::{
     closed_class::is_determiner,
     segment::{Class, Item, is_name},
 };
-use crate::sources::prompt::{
+use crate::words::singular;
+use crate::{
     lexicon::{self, is_own_part, substance},
     phrase::is_quality,
 };
-use crate::words::singular;
 
 /// Parts that are as the whole is.
 const WHOLE: &[&str] = &[

@@ -31,7 +31,7 @@ fn read(table: &'static str) -> HashMap<&'static str, Signs> {
 }
 
 /// Every adjective of a quality, and every state.
-pub(in crate::sources::prompt) fn quality_words() -> impl Iterator<Item = &'static str> {
+pub fn quality_words() -> impl Iterator<Item = &'static str> {
     ADJECTIVES.keys().chain(STATES.keys()).copied()
 }
 

@@ -2,10 +2,7 @@
 
 use super::closed_class::{is_colour, is_grammar};
 use crate::words::{Token, singular, spelled, without_accents};
-use crate::{
-    learned::text::{Vocabulary, WordTable},
-    sources::prompt::{lexicon, phrase},
-};
+use crate::{Vocabulary, WordVectors, lexicon, phrase};
 use std::collections::BTreeMap;
 
 /// English words that the table of words lacks, and that one edit parts from a word of the reader's: no
@@ -39,13 +36,13 @@ pub struct Correction {
 
 /// Puts a misspelt name right, or the one misspelt word of a prompt. Words that only lack the space between them are no
 /// misspellings.
-pub(super) fn correct(tokens: &mut Vec<Token>, table: &WordTable) -> Option<Correction> {
+pub(super) fn correct(tokens: &mut Vec<Token>, table: &impl WordVectors) -> Option<Correction> {
     part(tokens, table);
     whole(tokens).or_else(|| one_word(tokens, table))
 }
 
 /// Parts words that no one knows between two that say something: "brickwall", "carbonfiber".
-fn part(tokens: &mut Vec<Token>, table: &WordTable) {
+fn part(tokens: &mut Vec<Token>, table: &impl WordVectors) {
     let mut at = 0;
     while at < tokens.len() {
         let parts = match &tokens[at] {
@@ -116,7 +113,7 @@ fn whole(tokens: &mut Vec<Token>) -> Option<Correction> {
 
 /// The one word that nobody knows. Where two are unknown, it is rather another language, or somebody's
 /// name, and nothing is touched.
-fn one_word(tokens: &mut [Token], table: &WordTable) -> Option<Correction> {
+fn one_word(tokens: &mut [Token], table: &impl WordVectors) -> Option<Correction> {
     let alone = tokens.len() == 1;
     let mut unknown = tokens.iter_mut().filter_map(|token| match token {
         Token::Word(word) if !is_known(word, table) => Some(word),
@@ -153,7 +150,7 @@ fn is_swapped(a: &str, b: &str) -> bool {
 
 /// Whether a word is on a list of English; if not it is a misspelling, of another language, or somebody's name. What is
 /// not of Latin letters is no misspelling.
-pub(super) fn is_known(word: &str, table: &WordTable) -> bool {
+pub(super) fn is_known(word: &str, table: &impl WordVectors) -> bool {
     let word = &*without_accents(word);
     let letters = word.chars().all(|c| c.is_ascii_lowercase());
     let own = |word: &str| Vocabulary::new(OWN_WORDS).line("", word).is_some();

@@ -4,7 +4,7 @@
 //! words may lie near a third thing, such as the mat of another material.
 
 use super::Phrase;
-use crate::sources::prompt::lexicon::{is_name, own_part, substance};
+use crate::lexicon::{is_name, own_part, substance};
 
 /// Things whose own relief is felt, of whatever they are made: "wire mesh", "nylon brush".
 const RELIEFS: &[&str] = &[

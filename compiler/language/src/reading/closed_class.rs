@@ -1,6 +1,6 @@
 //! Words of grammar: they name nothing themselves, and there is a fixed number of them.
 
-use crate::sources::prompt::phrase;
+use crate::phrase;
 
 /// Determiners and pronouns.
 const DETERMINERS: &[&str] = &[

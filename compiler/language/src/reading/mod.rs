@@ -6,35 +6,40 @@
 //! something feels. Only what is left is encoded. English only.
 //!
 //! ```
-//! use asperity::{embedded, prompt::reading::Reader};
+//! use asperity_language::{WordVectors, reading::Reader};
 //!
-//! let reader = Reader::new(embedded::word_table()?);
+//! /// Takes every word for English, and knows nothing about it.
+//! struct NoTable;
+//! impl WordVectors for NoTable {
+//!     fn holds(&self, _: &str) -> bool { true }
+//!     fn vector(&self, _: &str) -> Option<Vec<f32>> { None }
+//! }
+//!
+//! let reader = Reader::new(NoTable);
 //! let reading = reader.read("imported gravel from my grandmother");
 //! assert_eq!(reading.names, ["gravel"]);
-//! assert_eq!(reading.ignored, ["grandmother"]);
 //! assert_eq!(reader.read("please, some very rough gravel").text(), "very rough gravel");
-//! # Ok::<(), asperity::learned::ModelError>(())
 //! ```
 
 mod closed_class;
 mod description;
+mod explained;
 mod graphics;
 mod parts;
 mod read;
 mod segment;
 mod spelling;
-#[cfg(test)]
-mod tests;
 mod word_sense;
 
-pub use super::lexicon::{in_one_word, key};
+pub use crate::lexicon::{in_one_word, key};
 pub use crate::words::{Token, normalise, shown};
 pub use closed_class::{is_colour, is_grammar};
+pub use explained::Taken;
 pub use spelling::Correction;
 
-use super::phrase::{self, Phrase};
 use crate::{
-    learned::text::WordTable,
+    WordVectors,
+    phrase::{self, Phrase},
     words::{
         grade::{self, Grade, Note},
         singular, without_accents,
@@ -50,8 +55,8 @@ pub const MOST_WORDS: usize = 1024;
 
 /// Reads prompts.
 #[derive(Debug, Clone, Copy)]
-pub struct Reader {
-    table: WordTable,
+pub struct Reader<T> {
+    table: T,
 }
 
 /// What was read of a prompt.
@@ -85,17 +90,18 @@ impl Reading {
     }
 
     /// Whether any word of this text is encoded.
-    pub(super) fn holds(&self, text: &str) -> bool {
+    #[must_use]
+    pub fn holds(&self, text: &str) -> bool {
         let words = || self.words.iter().flat_map(|word| word.split(' '));
         text.split(' ')
             .any(|word| words().any(|said| singular(said) == singular(word)))
     }
 }
 
-impl Reader {
-    /// A reader with the table of words of the shipped encoder.
+impl<T: WordVectors> Reader<T> {
+    /// A reader with a table of words.
     #[must_use]
-    pub fn new(table: WordTable) -> Self {
+    pub fn new(table: T) -> Self {
         Self { table }
     }
 

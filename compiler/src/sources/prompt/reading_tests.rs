@@ -1,6 +1,6 @@
 //! What is read of prompts, of each kind of rule a few.
 
-use super::{Reader, Reading};
+use super::reading::{Reader, Reading};
 use crate::learned::embedded;
 
 fn read(prompt: &str) -> Reading {
@@ -184,5 +184,52 @@ fn what_no_list_of_english_holds_says_nothing() {
     }
     for prompt in ["a manhole lid in a downpour", "velvety", "vеlvet"] {
         assert!(read(prompt).says, "{prompt}");
+    }
+}
+
+#[test]
+fn words_of_pictures_say_nothing_about_touch() {
+    for prompt in [
+        "seamless tileable gravel, 8k, PBR",
+        "gravel normal map",
+        "gravel heightmap, 2048x2048",
+        "gravel, roughness: 0.8, metallic 1",
+        "PBR gravel, albedo, normal, roughness, AO, seamless",
+        "gravel, sharp focus, soft light",
+        "gravel, soft light and hard shadows",
+        "gravel, warm and soft natural light",
+        "gravel, soft cinematic lighting",
+        "high-resolution scan of gravel",
+        "gravel, uv mapped, light map, shadow pass",
+        "sharp focus gravel",
+        "gravel, smooth gradient background",
+        "gravel, unreal engine, ray tracing, glossy reflections",
+        "gravel --ar 16:9 --no rough",
+        "gravel <lora:skin_detail:0.8>",
+        "gravel. Negative prompt: smooth, shiny plastic",
+        "Prompt: gravel. Negative prompt: smooth silk",
+        "Negative prompt: smooth silk. Prompt: gravel",
+        "gravel\nSteps: 20, Sampler: Euler a, CFG scale: 7",
+    ] {
+        assert_eq!(read(prompt).text(), "gravel", "{prompt}");
+    }
+}
+
+#[test]
+fn the_same_words_about_a_thing_stay() {
+    for (prompt, expected) in [
+        ("soft light leather", "soft leather"),
+        ("smooth leather", "smooth leather"),
+        ("3d printed plastic", "3d-printed plastic"),
+        ("2k grit sandpaper", "2000 grit sandpaper"),
+        ("a traffic light", "traffic light"),
+        ("steel with a roughness of 0.8 µm", "steel with a Ra 0.8 µm"),
+        ("wet stone steps, smooth", "wet stone step smooth"),
+        ("brick --rough", "brick rough"),
+        ("smooth lether background", "smooth leather"),
+        ("gravel, smoothness, metallic", "gravel smoothness metallic"),
+        ("wooden photo frame", "wooden photo frame"),
+    ] {
+        assert_eq!(read(prompt).text(), expected, "{prompt}");
     }
 }

@@ -111,7 +111,8 @@ pub fn shown(prompt: &str) -> String {
 }
 
 /// A text in the letters that it is read in: compatibility forms, and Latin letters for what looks like them in a word.
-pub(crate) fn in_letters(text: &str) -> String {
+#[must_use]
+pub fn in_letters(text: &str) -> String {
     latin(&measured(text).nfkc().collect::<String>())
 }
 

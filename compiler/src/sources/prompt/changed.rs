@@ -1,6 +1,6 @@
 //! How far attributes go from those of a base, as the changes of a phrase say.
 
-use super::{Change, Changes};
+use super::phrase::{Change, Changes};
 use asperity_texture::model::{
     attributes::Attributes,
     shift::{Scales, Shift, scales, to},

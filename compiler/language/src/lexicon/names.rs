@@ -6,14 +6,14 @@
 //! in the singular. `qualities.txt` has a word a line. Both are written by
 //! `cargo run --release -p asperity-corpus --example names`.
 
-use crate::learned::text::Vocabulary;
+use crate::Vocabulary;
 use crate::words::{Token, normalise, singular, without_accents};
 use std::{collections::HashMap, sync::LazyLock};
 
 const NAMES: &str = include_str!("names.tsv");
 const QUALITIES: &str = include_str!("qualities.txt");
 /// Words of a name at most.
-pub(in crate::sources::prompt) const LONGEST: usize = 5;
+pub(crate) const LONGEST: usize = 5;
 
 /// The key of a name; `None` for a text of no words or too many.
 #[must_use]
@@ -56,7 +56,7 @@ pub fn in_one_word(key: &str) -> String {
 }
 
 /// The name that these words are, as the corpus spells it.
-pub(in crate::sources::prompt) fn name(words: &[&str]) -> Option<&'static str> {
+pub(crate) fn name(words: &[&str]) -> Option<&'static str> {
     let key = key_of(words);
     if let Some(line) = Vocabulary::new(NAMES).line("", &key) {
         return Some(line.split_once('\t').map_or(line, |(_, name)| name));
@@ -73,29 +73,29 @@ pub(in crate::sources::prompt) fn name(words: &[&str]) -> Option<&'static str> {
 }
 
 /// Whether the lexicon says of something how it feels by this word.
-pub(in crate::sources::prompt) fn is_quality(word: &str) -> bool {
+pub(crate) fn is_quality(word: &str) -> bool {
     Vocabulary::new(QUALITIES).line("", word).is_some()
 }
 
 /// Every word of a name's key, as often as it stands in one, and every quality.
-pub(in crate::sources::prompt) fn vocabulary() -> impl Iterator<Item = &'static str> {
+pub(crate) fn vocabulary() -> impl Iterator<Item = &'static str> {
     keys()
         .flat_map(|key| key.split(' '))
         .chain(QUALITIES.lines())
 }
 
 /// Every name, as the corpus spells it.
-pub(in crate::sources::prompt) fn names() -> impl Iterator<Item = &'static str> {
+pub fn names() -> impl Iterator<Item = &'static str> {
     NAMES.lines().filter_map(|line| line.rsplit('\t').next())
 }
 
 /// The words by which the lexicon says how something feels.
-pub(in crate::sources::prompt) fn qualities() -> impl Iterator<Item = &'static str> {
+pub fn qualities() -> impl Iterator<Item = &'static str> {
     QUALITIES.lines()
 }
 
 /// The key of every name.
-pub(in crate::sources::prompt) fn keys() -> impl Iterator<Item = &'static str> {
+pub(crate) fn keys() -> impl Iterator<Item = &'static str> {
     let key = |line: &'static str| line.split_once('\t').map_or(line, |(key, _)| key);
     NAMES.lines().map(key)
 }

@@ -3,10 +3,10 @@
 
 mod names;
 
-pub(super) use names::{LONGEST, is_quality, keys, name, names, qualities, vocabulary};
-pub use names::{in_one_word, key};
+pub(crate) use names::{LONGEST, is_quality, keys, name, vocabulary};
+pub use names::{in_one_word, key, names, qualities};
 
-use crate::{learned::text::Vocabulary, words::singular};
+use crate::{Vocabulary, words::singular};
 
 /// What things are made of: lines `word TAB substance`, sorted; the substance is left out where it is the
 /// word.
@@ -18,23 +18,24 @@ const OWN_PARTS: &[&str] = &[
 ];
 
 /// Whether a text is the name of something.
-pub(super) fn is_name(text: &str) -> bool {
+#[must_use]
+pub fn is_name(text: &str) -> bool {
     name(&text.split(' ').collect::<Vec<_>>()).is_some()
 }
 
 /// The substance that a word names.
-pub(super) fn substance(word: &str) -> Option<&'static str> {
+pub(crate) fn substance(word: &str) -> Option<&'static str> {
     let line = Vocabulary::new(SUBSTANCES).line("", word)?;
     Some(line.split_once('\t').map_or(line, |(_, name)| name))
 }
 
 /// Whether a part, in the singular, is as it is, whatever it belongs to.
-pub(super) fn is_own_part(part: &str) -> bool {
+pub(crate) fn is_own_part(part: &str) -> bool {
     OWN_PARTS.contains(&part)
 }
 
 /// The part that a name ends in, if it is as it is: the handle of "axe handle".
-pub(super) fn own_part(name: &str) -> Option<&str> {
+pub(crate) fn own_part(name: &str) -> Option<&str> {
     let (_, part) = name.rsplit_once(' ')?;
     is_own_part(&singular(part)).then_some(part)
 }

@@ -1,10 +1,10 @@
 //! What a word that no list holds may say: how something feels, or what is touched.
 //!
-//! Two logistic regressions on the rows of the shipped [table of words](WordTable), each scaled to
+//! Two logistic regressions on the rows of a [table of words](WordVectors), each scaled to
 //! length one. `compiler/model/tools/export_reading.py` fits them, and prints how they do on words of no
 //! list (`training/corpora/evaluation/touch_words.tsv`).
 
-use crate::learned::text::WordTable;
+use crate::WordVectors;
 use std::sync::LazyLock;
 
 /// Lines `touch TAB thing`: the weights of a row, then the offsets.
@@ -32,7 +32,7 @@ pub(super) struct Sense {
 
 /// The sense of a word; neither for a word that is not in the table, unless it is a participle, which is
 /// rather of a craft than of talk: "overstuffed", "limescaled".
-pub(super) fn sense(table: &WordTable, word: &str) -> Sense {
+pub(super) fn sense(table: &impl WordVectors, word: &str) -> Sense {
     let ending = PARTICIPLES
         .iter()
         .find(|(ending, _)| word.len() > 4 && word.ends_with(ending));

@@ -1,11 +1,11 @@
 //! What became of the words of a prompt, for people who ask.
 
-use super::{
+use super::Reading;
+use crate::{
     lexicon::is_name,
     phrase::{self, Changes, Phrase},
-    reading::Reading,
+    words::grade::Grade,
 };
-use crate::words::grade::Grade;
 use serde::Serialize;
 
 /// What a word, or several that are one name, were taken for.

@@ -6,13 +6,13 @@ use super::{
     },
     word_sense::Sense,
 };
-use crate::sources::prompt::{
-    lexicon::{self, LONGEST, substance},
-    phrase,
-};
 use crate::words::{
     Token,
     grade::{self, Grade},
+};
+use crate::{
+    lexicon::{self, LONGEST, substance},
+    phrase,
 };
 
 /// What an item is.

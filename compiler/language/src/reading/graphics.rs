@@ -3,8 +3,7 @@
 
 use super::closed_class::{is_colour, is_function};
 use crate::{
-    learned::text::Vocabulary,
-    sources::prompt::{lexicon, phrase},
+    Vocabulary, lexicon, phrase,
     words::{
         Token,
         grade::{self, Context},
@@ -279,16 +278,7 @@ fn qualities(tokens: &[Token], is_known: impl Fn(&str) -> bool) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        learned::embedded,
-        sources::prompt::reading::{Reader, normalise},
-    };
-
-    fn read(prompt: &str) -> String {
-        Reader::new(embedded::word_table().expect("the table of words"))
-            .read(prompt)
-            .text()
-    }
+    use crate::words::normalise;
 
     #[test]
     fn terms_are_sorted_normalised_and_have_a_known_role() {
@@ -307,53 +297,6 @@ mod tests {
                 .collect();
             assert_eq!(again.join(" "), words);
             assert!(again.len() <= LONGEST, "{line}");
-        }
-    }
-
-    #[test]
-    fn words_of_pictures_say_nothing_about_touch() {
-        for prompt in [
-            "seamless tileable gravel, 8k, PBR",
-            "gravel normal map",
-            "gravel heightmap, 2048x2048",
-            "gravel, roughness: 0.8, metallic 1",
-            "PBR gravel, albedo, normal, roughness, AO, seamless",
-            "gravel, sharp focus, soft light",
-            "gravel, soft light and hard shadows",
-            "gravel, warm and soft natural light",
-            "gravel, soft cinematic lighting",
-            "high-resolution scan of gravel",
-            "gravel, uv mapped, light map, shadow pass",
-            "sharp focus gravel",
-            "gravel, smooth gradient background",
-            "gravel, unreal engine, ray tracing, glossy reflections",
-            "gravel --ar 16:9 --no rough",
-            "gravel <lora:skin_detail:0.8>",
-            "gravel. Negative prompt: smooth, shiny plastic",
-            "Prompt: gravel. Negative prompt: smooth silk",
-            "Negative prompt: smooth silk. Prompt: gravel",
-            "gravel\nSteps: 20, Sampler: Euler a, CFG scale: 7",
-        ] {
-            assert_eq!(read(prompt), "gravel", "{prompt}");
-        }
-    }
-
-    #[test]
-    fn the_same_words_about_a_thing_stay() {
-        for (prompt, expected) in [
-            ("soft light leather", "soft leather"),
-            ("smooth leather", "smooth leather"),
-            ("3d printed plastic", "3d-printed plastic"),
-            ("2k grit sandpaper", "2000 grit sandpaper"),
-            ("a traffic light", "traffic light"),
-            ("steel with a roughness of 0.8 µm", "steel with a Ra 0.8 µm"),
-            ("wet stone steps, smooth", "wet stone step smooth"),
-            ("brick --rough", "brick rough"),
-            ("smooth lether background", "smooth leather"),
-            ("gravel, smoothness, metallic", "gravel smoothness metallic"),
-            ("wooden photo frame", "wooden photo frame"),
-        ] {
-            assert_eq!(read(prompt), expected, "{prompt}");
         }
     }
 }

@@ -15,23 +15,28 @@ use notation::CUTS;
 use std::fmt::{self, Display, Formatter};
 use std::ops::RangeInclusive;
 
-pub(crate) use janka::janka;
-pub use janka::woods;
+pub use janka::{janka, woods};
 pub(crate) use notation::{Context, read};
-pub(crate) use scales::{PAPERS, grit_um, is_abrasive, is_paper, own_grain_um};
+pub(crate) use scales::is_abrasive;
+pub use scales::{PAPERS, grit_um, is_paper, own_grain_um};
 
 /// A number on a scale.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grade {
-    pub(crate) scale: Scale,
-    pub(crate) value: f64,
+    /// What it counts.
+    pub scale: Scale,
+    /// The number, in the unit of its scale.
+    pub value: f64,
 }
 
 /// What a number counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Scale {
+pub enum Scale {
     /// Grit of an abrasive, with or without the P of FEPA.
-    Grit { p: bool },
+    Grit {
+        /// Whether the P is written.
+        p: bool,
+    },
     /// Openings of a sieve per inch.
     Mesh,
     /// Indentation hardness of elastomers, ISO 868.
@@ -74,7 +79,8 @@ impl Scale {
 
 impl Grade {
     /// The grade that a word is, as the reader writes one.
-    pub(crate) fn of(word: &str) -> Option<Self> {
+    #[must_use]
+    pub fn of(word: &str) -> Option<Self> {
         // Most words are none.
         let may = word.bytes().any(|byte| byte.is_ascii_digit()) || word.ends_with(" cut");
         let tokens = may.then(|| crate::words::normalise(word))?;
@@ -87,7 +93,8 @@ impl Grade {
     }
 
     /// What is graded where a prompt names nothing.
-    pub(crate) fn thing(self) -> &'static str {
+    #[must_use]
+    pub fn thing(self) -> &'static str {
         match self.scale {
             Scale::Grit { .. } => "sandpaper",
             Scale::Mesh => "sand",
@@ -104,7 +111,8 @@ impl Grade {
     }
 
     /// Whether two numbers say the same thing of a surface, so that only one can hold.
-    pub(crate) fn conflicts(self, other: Self) -> bool {
+    #[must_use]
+    pub fn conflicts(self, other: Self) -> bool {
         let kind = |grade: Self| match grade.scale {
             Scale::Grit { .. } => Scale::Mesh,
             Scale::ShoreD => Scale::ShoreA,
@@ -191,7 +199,8 @@ pub(crate) fn may_be_in(tokens: &[Token]) -> bool {
 }
 
 /// How much coarser the relief of a text's thing is than its own, by the last number that says it.
-pub(crate) fn coarser(text: &str) -> f64 {
+#[must_use]
+pub fn coarser(text: &str) -> f64 {
     let tokens = super::normalise(text);
     let context = Context::of(&tokens);
     let text = text.to_lowercase();

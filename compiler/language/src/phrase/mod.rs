@@ -3,12 +3,11 @@
 //!
 //! A text vector knows that rough silk is about silk, and hardly that it is rougher than silk.
 //! So a prompt is divided: its base is what remains without the words that change it ("silk"),
-//! and each change says in which direction roughness, slipperiness or hardness moves, and how far. A
-//! [`Shift`](asperity_texture::model::shift::Shift) moves the texture there. English only; whatever is not
-//! recognised is left to the text vector.
+//! and each change says in which direction roughness, slipperiness or hardness moves, and how far. English only;
+//! whatever is not recognised is left to the text vector.
 //!
 //! ```
-//! use asperity::prompt::phrase::{Phrase, parse};
+//! use asperity_language::phrase::{Phrase, parse};
 //!
 //! let words = ["very", "rough", "sandpaper"].map(String::from);
 //! let Phrase::Changed { base, changes } = parse(&words) else { panic!("a material with a change") };
@@ -16,7 +15,6 @@
 //! assert!(changes.rough.is_some_and(|change| change.least > 0.0) && changes.hard.is_none());
 //! ```
 
-mod changed;
 mod compound;
 mod parse;
 mod quality;
@@ -26,13 +24,12 @@ mod words;
 
 use crate::words::grade::Grade;
 
-pub use changed::{STEP, changed, from_base};
 pub use parse::{is_cover, parse};
 pub use quality::{is_degree, is_lasting, is_quality};
 pub use relative::{Relative, Towards, relative};
-pub(super) use table::quality_words;
+pub use table::quality_words;
 
-/// How far one attribute is to go from that of the base, in steps of [`STEP`].
+/// How far one attribute is to go from that of the base, in steps, of which half a one is noticed.
 ///
 /// What the text vector says by itself is kept where it lies within the range.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,10 +6,7 @@ use super::{
     description::{SUBJECTS, has_unknown_head, is_description},
     segment::{Class, Item, is_name},
 };
-use crate::{
-    sources::prompt::{lexicon, phrase},
-    words::grade::Grade,
-};
+use crate::{lexicon, phrase, words::grade::Grade};
 
 /// What follows one of these happened to an object: "a chin after the barber".
 const EVENTS: &[&str] = &["after", "before", "until"];

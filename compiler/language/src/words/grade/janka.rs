@@ -90,7 +90,8 @@ pub fn woods() -> impl Iterator<Item = &'static str> {
 const WOOD: [&str; 3] = [" wood", " timber", " lumber"];
 
 /// Side hardness of a wood, lbf.
-pub(crate) fn janka(name: &str) -> Option<f64> {
+#[must_use]
+pub fn janka(name: &str) -> Option<f64> {
     let line = |name: &str| JANKA.binary_search_by(|(known, _)| (*known).cmp(name)).ok();
     let bare = WOOD.iter().find_map(|end| name.strip_suffix(end));
     let found = line(name)

@@ -1,0 +1,30 @@
+//! What an English text says about touch, before any model reads it.
+//!
+//! | module | |
+//! |---|---|
+//! | `words` | a text as words in one form, and numbers with a scale |
+//! | `lexicon` | names of things, what they are made of, and qualities |
+//! | `phrase` | qualities, materials and covers of what is named |
+//! | `reading` | which words of a text say something about touch |
+//! | `vocabulary` | sorted tables in the text of a file |
+//!
+//! Nothing here knows a model, a texture or a file. What a table of word vectors adds stands behind [`WordVectors`].
+#![forbid(unsafe_code)]
+
+pub mod lexicon;
+pub mod phrase;
+pub mod reading;
+mod vocabulary;
+pub mod words;
+
+pub use vocabulary::Vocabulary;
+
+/// Vectors of English words from a table made ahead of time.
+pub trait WordVectors {
+    /// Whether a word has a row, as it stands or without the ending of a plural or of a verb.
+    fn holds(&self, word: &str) -> bool;
+
+    /// The sum of the rows of a text's words, of length one and the same width for every text; `None` where none of
+    /// them is in the table.
+    fn vector(&self, text: &str) -> Option<Vec<f32>>;
+}
