@@ -7,6 +7,7 @@ mod judged;
 mod latents;
 mod modifiers;
 mod rewordings;
+mod sentences;
 mod spelling;
 mod together;
 mod words;

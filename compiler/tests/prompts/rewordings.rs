@@ -65,7 +65,7 @@ fn capital(word: &str) -> String {
 }
 
 /// The largest difference of two textures, in tolerances.
-fn distance(a: &Attributes, b: &Attributes) -> f64 {
+pub(super) fn distance(a: &Attributes, b: &Attributes) -> f64 {
     let level = |a: &Attributes| a.rough_db.expect("a level");
     let hard = |a: &Attributes| a.hard_hz.expect("taps").ln();
     let differences = [

@@ -1,0 +1,199 @@
+//! Sentences of writers who have not seen the reader: what is touched in them feels like what they name.
+//!
+//! `open` is what work on the reader looks at. `sealed` is scored once, when that work is done:
+//! `ASPERITY_SEALED=1 ASPERITY_TEST_SIZE=full cargo test -p asperity --test it sentences -- --nocapture`.
+
+use super::{PROMPTS, rewordings::distance};
+use asperity::{
+    attributes::{self, Attributes},
+    learned::Certainty,
+};
+use asperity_tests::{
+    figures,
+    size::{least, sized},
+};
+use rayon::prelude::*;
+use sha2::{Digest as _, Sha256};
+use std::{collections::BTreeMap, fs, path::PathBuf};
+
+/// What is scored, and the least share of `open` in a sample; `docs/figures/sentences.toml` holds the whole set exactly.
+const LEAST_SHARES: [(&str, f64); 6] = [
+    ("sentences that name what is touched", 0.2),
+    ("denials", 0.0),
+    ("sentences without a surface", 0.0),
+    ("qualities in frames", 0.1),
+    ("names in other orders", 0.9),
+    ("touchable things", 0.97),
+];
+/// Qualities that names are said with in other orders.
+const QUALITIES: [&str; 5] = ["rough", "wet", "polished", "very soft", "slippery"];
+
+fn folder() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../training/corpora/evaluation/sentences")
+}
+
+fn lines(set: &str, file: &str) -> Vec<String> {
+    let path = folder().join(set).join(file);
+    let text =
+        fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    text.lines().map(str::to_owned).collect()
+}
+
+fn felt(prompt: &str) -> Attributes {
+    attributes::of(&PROMPTS.texture(prompt).expect(prompt))
+}
+
+/// Whether two prompts feel the same.
+fn same(prompt: &str, bare: &str) -> bool {
+    distance(&felt(prompt), &felt(bare)) <= 1.0
+}
+
+/// Whether a prompt is said to name nothing that is touched.
+fn none(prompt: &str) -> bool {
+    let named = !PROMPTS.read(prompt).names.is_empty();
+    let certainty = PROMPTS.project(prompt).expect(prompt).certainty;
+    !named && certainty == Certainty::Guess
+}
+
+/// What holds of a set: each claim with the prompts that it holds for, of all.
+fn score(set: &str) -> Vec<(&'static str, Vec<(String, bool)>)> {
+    let sentences: Vec<(String, String, String)> = lines(set, "sentences.tsv")
+        .iter()
+        .map(|line| {
+            let mut fields = line.split('\t').map(str::to_owned);
+            let mut field = || fields.next().expect("three fields");
+            (field(), field(), field())
+        })
+        .step_by(sized("every so many sentences", 25, 1))
+        .collect();
+    let (denied, said): (Vec<_>, Vec<_>) =
+        sentences.iter().partition(|(kind, ..)| kind == "denial");
+    let (silent, said): (Vec<_>, Vec<_>) = said.into_iter().partition(|(.., bare)| bare == "-");
+    let judged = |all: &[&(String, String, String)], holds: fn(&str, &str) -> bool| {
+        let judge = |(kind, text, bare): &&(String, String, String)| {
+            (format!("{kind}: {text}"), holds(text, bare))
+        };
+        all.par_iter().map(judge).collect::<Vec<_>>()
+    };
+    let some = sized("every so many frames and names", 97, 1);
+    let frames = lines(set, "frames.txt");
+    let pairs: Vec<(String, String)> = lines(set, "qualities.tsv")
+        .iter()
+        .filter_map(|line| line.split_once('\t'))
+        .flat_map(|(said, bare)| {
+            frames
+                .iter()
+                .map(move |frame| (frame.replace("{}", said), bare.to_owned()))
+        })
+        .step_by(some)
+        .collect();
+    let anchors = &PROMPTS.model().description().anchors;
+    let orders = lines(set, "orders.txt");
+    let ordered: Vec<(String, String)> = anchors
+        .iter()
+        .zip(QUALITIES.iter().cycle())
+        .flat_map(|(anchor, quality)| {
+            let name = &anchor.name;
+            orders.iter().map(move |order| {
+                (
+                    order.replace("{q}", quality).replace("{n}", name),
+                    format!("{quality} {name}"),
+                )
+            })
+        })
+        .step_by(some)
+        .collect();
+    let alike = |pairs: &[(String, String)]| {
+        let judge = |(said, bare): &(String, String)| (said.clone(), same(said, bare));
+        pairs.par_iter().map(judge).collect::<Vec<_>>()
+    };
+    let things: Vec<String> = lines(set, "touchable.txt")
+        .into_iter()
+        .step_by(some)
+        .collect();
+    let touched = things.par_iter().map(|thing| (thing.clone(), !none(thing)));
+    let scores = [
+        judged(&said, same),
+        judged(&denied, same),
+        judged(&silent, |text, _| none(text)),
+        alike(&pairs),
+        alike(&ordered),
+        touched.collect(),
+    ];
+    LEAST_SHARES
+        .iter()
+        .map(|(claim, _)| *claim)
+        .zip(scores)
+        .collect()
+}
+
+#[test]
+fn a_sentence_feels_like_what_is_touched_in_it() {
+    let sealed = std::env::var_os("ASPERITY_SEALED").is_some();
+    let set = if sealed { "sealed" } else { "open" };
+    let (mut missed, mut rights) = (Vec::new(), Vec::new());
+    for ((claim, judged), (_, share)) in score(set).into_iter().zip(LEAST_SHARES) {
+        let right = judged.iter().filter(|(_, holds)| *holds).count();
+        println!("{claim}: {right} of {}", judged.len());
+        rights.push([right, judged.len()]);
+        let mut kinds: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
+        for (text, holds) in &judged {
+            if let Some((kind, _)) = text.split_once(": ").filter(|_| claim == LEAST_SHARES[0].0) {
+                let (right, of) = kinds.entry(kind).or_default();
+                *right += usize::from(*holds);
+                *of += 1;
+            }
+        }
+        for (kind, (right, of)) in kinds {
+            println!("  {kind}: {right} of {of}");
+        }
+        // Of the sealed set, nothing but numbers is shown.
+        if !sealed {
+            let wrong = judged.iter().filter(|(_, holds)| !holds);
+            wrong
+                .take(10)
+                .for_each(|(text, _)| println!("  not: {text}"));
+        }
+        if !sealed && right < least(share, judged.len()) {
+            missed.push(format!("{claim}: {right} of {}", judged.len()));
+        }
+    }
+    assert!(missed.is_empty(), "{missed:?}");
+    if !sealed {
+        let [said, denied, silent, framed, ordered, _] = rights[..] else {
+            unreachable!("six claims")
+        };
+        figures::hold_at_full(
+            "sentences",
+            "-p asperity --test it sentences",
+            [
+                ("said", said[0].to_string()),
+                ("said_of", said[1].to_string()),
+                ("denied", denied[0].to_string()),
+                ("denied_of", denied[1].to_string()),
+                ("silent", silent[0].to_string()),
+                ("silent_of", silent[1].to_string()),
+                ("framed", framed[0].to_string()),
+                ("framed_of", framed[1].to_string()),
+                ("ordered", ordered[0].to_string()),
+                ("ordered_of", ordered[1].to_string()),
+            ],
+        );
+    }
+}
+
+/// Both sets are those that their writers left, before anything was fitted.
+#[test]
+fn the_sets_are_as_their_writers_left_them() {
+    let listed = fs::read_to_string(folder().join("SHA256SUMS")).expect("the list");
+    for line in listed.lines() {
+        let (hash, file) = line.split_once("  ").expect("a hash and a file");
+        let bytes = fs::read(folder().join(file)).expect(file);
+        let found: String = Sha256::digest(bytes)
+            .iter()
+            .map(|byte| format!("{byte:02x}"))
+            .collect();
+        assert_eq!(found, hash, "{file}");
+    }
+    assert_eq!(listed.lines().count(), 10);
+}
