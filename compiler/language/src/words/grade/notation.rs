@@ -201,12 +201,17 @@ fn wale(parts: &mut Parts<'_>, _: Context) -> Option<Grade> {
 fn shore(parts: &mut Parts<'_>, context: Context) -> Option<Grade> {
     const SCALE: &[&str] = &["shore", "durometer", "duro"];
     const LETTERS: &[&str] = &["a", "d"];
+    // Scales of other springs and tips, whose numbers are no Shore A.
+    const OTHERS: &[&str] = &["00", "000", "b", "c", "do", "e", "m", "o", "oo", "ooo"];
     let mut d = None;
     if parts.eat(&["hardness"]) {
         parts.pass(FILLERS);
     }
     let value = if parts.eat(SCALE) {
         parts.pass(&["hardness", "scale"]);
+        if parts.eat(OTHERS) {
+            return None;
+        }
         if parts.eat(&["a"]) {
             d = Some(false);
         } else if parts.eat(&["d"]) {
@@ -231,6 +236,9 @@ fn shore(parts: &mut Parts<'_>, context: Context) -> Option<Grade> {
         let said = parts.eat(SCALE);
         if said {
             parts.eat(&["hardness"]);
+            if parts.eat(OTHERS) {
+                return None;
+            }
             if d.is_none() && parts.eat(&["d"]) {
                 d = Some(true);
             } else if d.is_none() {
@@ -509,6 +517,11 @@ mod tests {
             "grit",
             "Mohs",
             "Shore A 400 rubber",
+            "Shore 00 30 gel",
+            "30 Shore 00 gel",
+            "Shore OO 30 gel",
+            "40 Shore C foam",
+            "Shore E 40 foam",
             "a pile of 30 leaves",
             "2 threads of wool",
             "two mesh bags",
