@@ -4,8 +4,8 @@
 
 use multiversion::multiversion;
 
-/// Number of frequencies in a block, as many as fit the registers of a processor.
-const LANES: usize = 8;
+/// Number of frequencies in a block: enough independent sums to keep the multipliers of a processor busy.
+const LANES: usize = 16;
 
 /// One number for every frequency of a block.
 type Lanes = [f64; LANES];
