@@ -131,12 +131,13 @@ async function scattered(visit, tools) {
   await page.click(".modes label:nth-child(2)");
   const canvas = page.locator(".plot-canvas-scatter");
   await canvas.focus();
-  // Before its first frame a key finds no point, and at the edge of all points none lies further out.
-  const keys = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"];
-  for (let n = 0; n < 100 && !(await page.textContent(".scatter .plot-readout")); n++) {
-    await page.keyboard.press(keys[n % keys.length]);
-    await page.waitForTimeout(200);
+  const reached = () => document.querySelector(".scatter .plot-readout").textContent !== "";
+  // Before its first frame a key finds no point.
+  for (let n = 0; n < 50 && !(await page.evaluate(reached)); n++) {
+    await page.keyboard.press("ArrowLeft");
+    await page.waitForTimeout(100);
   }
+  await until(page, reached);
   const said = (await page.textContent("#announcement")).split(", ")[0];
   await page.keyboard.press("Enter");
   await extracted(visit, tools, "many.aspl", said);
