@@ -6,6 +6,7 @@ mod completion;
 mod judged;
 mod latents;
 mod modifiers;
+mod reading;
 mod rewordings;
 mod sentences;
 mod spelling;

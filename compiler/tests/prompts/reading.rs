@@ -1,10 +1,10 @@
 //! What is read of prompts, of each kind of rule a few.
 
-use super::reading::{Reader, Reading};
-use crate::learned::embedded;
+use super::PROMPTS;
+use asperity::prompt::reading::Reading;
 
 fn read(prompt: &str) -> Reading {
-    Reader::new(embedded::word_table().expect("the table of words")).read(prompt)
+    PROMPTS.read(prompt)
 }
 
 fn texts(cases: &[(&str, &str)]) {

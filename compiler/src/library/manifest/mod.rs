@@ -24,6 +24,7 @@ mod entry;
 mod error;
 mod graph;
 mod json_file;
+mod missing;
 mod read;
 mod row;
 mod toml_file;

@@ -14,14 +14,20 @@ pub(super) fn doubts(texture: &TextureModel) -> Vec<String> {
     let speed_mm_s = largest(|vertex| vertex.speed_mm_s);
     let force_n = largest(|vertex| vertex.force_n);
     let ranges = [
-        ("speed_mm_s", "mm/s", speed_mm_s, SPEEDS_MM_S),
-        ("force_n", "N", force_n, LOADS_N),
+        (
+            "speed_mm_s",
+            "mm/s",
+            speed_mm_s,
+            SPEEDS_MM_S,
+            ["slower", "faster"],
+        ),
+        ("force_n", "N", force_n, LOADS_N, ["lighter", "heavier"]),
     ];
-    let beyond = ranges.into_iter().filter_map(|(key, unit, value, range)| {
+    let beyond = ranges.into_iter().filter_map(|(key, unit, value, range, words)| {
         let (word, other) = if value < range.0 {
-            ("slower or lighter", "1,000 times larger")
+            (words[0], "1,000 times larger")
         } else if value > range.1 {
-            ("faster or heavier", "1,000 times smaller")
+            (words[1], "1,000 times smaller")
         } else {
             return None;
         };

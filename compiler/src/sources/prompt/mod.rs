@@ -36,9 +36,6 @@ mod source;
 mod suggestions;
 mod understood;
 
-#[cfg(test)]
-mod reading_tests;
-
 pub use asperity_language::reading::Taken;
 pub use asperity_language::{phrase, reading, words::grade::woods};
 pub use asperity_texture::model::shift::Shift;
