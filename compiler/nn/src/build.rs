@@ -19,6 +19,14 @@ use crate::{
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Value(String);
 
+impl Value {
+    /// Its name in the graph.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.0
+    }
+}
+
 /// Value of an attribute.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Attribute {

@@ -4,7 +4,7 @@ use bytes::Bytes;
 
 use crate::{
     OnnxError, OpError, Port, RunError, Session, Tensor,
-    load::{self, Constant, Plan, Step},
+    load::{self, Constant, Plan, Slot, Step},
     op::{Inputs, RUN_LIMIT, layout},
     session::check_inputs,
 };
@@ -108,16 +108,39 @@ impl Value<'_> {
     }
 }
 
-impl Session for Portable {
-    fn inputs(&self) -> &[Port] {
-        &self.plan.inputs
+impl Portable {
+    /// Computes values that the graph names, in the order of their names, and nothing that no such value needs the
+    /// graph to go on to: the states of a layer cost the layers below it.
+    ///
+    /// # Errors
+    /// As [`Session::run`], and [`RunError::UnknownValue`] for a name that no step of the loaded graph computes: of an
+    /// input, a constant, or a value that no output needs.
+    pub fn values(
+        &self,
+        inputs: &[(&str, &Tensor)],
+        names: &[&str],
+    ) -> Result<Vec<Tensor>, RunError> {
+        let steps = &self.plan.steps;
+        let find = |name: &&str| {
+            let slot = self.plan.slots.get(*name).copied();
+            let step = slot.and_then(|slot| steps.iter().position(|step| step.output == slot));
+            step.ok_or_else(|| RunError::UnknownValue {
+                name: (*name).to_owned(),
+            })
+        };
+        let found: Vec<usize> = names.iter().map(find).collect::<Result<_, _>>()?;
+        let slots: Vec<Slot> = found.iter().map(|&step| steps[step].output).collect();
+        let end = found.into_iter().max().map_or(0, |last| last + 1);
+        self.compute(inputs, end, &slots)
     }
 
-    fn outputs(&self) -> &[Port] {
-        &self.plan.outputs
-    }
-
-    fn run(&self, inputs: &[(&str, &Tensor)]) -> Result<Vec<(String, Tensor)>, RunError> {
+    /// Runs the first `end` steps, and returns the values of `slots`.
+    fn compute(
+        &self,
+        inputs: &[(&str, &Tensor)],
+        end: usize,
+        slots: &[Slot],
+    ) -> Result<Vec<Tensor>, RunError> {
         check_inputs(&self.plan.inputs, inputs)?;
         let plan = &self.plan;
         let mut values: Vec<Value<'_>> = plan
@@ -134,7 +157,7 @@ impl Session for Portable {
             }
         }
         let mut live = 0;
-        for step in &plan.steps {
+        for step in &plan.steps[..end] {
             let result = self
                 .step(step, &values, live)
                 .map_err(|source| RunError::Node {
@@ -144,24 +167,37 @@ impl Session for Portable {
                 })?;
             live += result.len();
             values[step.output] = Value::Owned(result);
-            for &slot in &step.last_uses {
-                live -= values[slot].owned();
-                values[slot] = Value::None;
+            for slot in step.last_uses.iter().filter(|slot| !slots.contains(slot)) {
+                live -= values[*slot].owned();
+                values[*slot] = Value::None;
             }
         }
-        let results = plan
-            .outputs
-            .iter()
-            .zip(&plan.output_slots)
-            .map(|(port, &slot)| {
-                let value = values[slot].get().cloned().ok_or(RunError::Node {
-                    node: port.name.clone(),
-                    op_type: "output".to_owned(),
-                    source: OpError::Input(0),
-                })?;
-                Ok((port.name.clone(), canonical(value)))
-            });
-        results.collect()
+        let value = |slot: &Slot| {
+            let value = values[*slot].get().cloned();
+            value.map(canonical).ok_or(RunError::Node {
+                node: slot.to_string(),
+                op_type: "output".to_owned(),
+                source: OpError::Input(0),
+            })
+        };
+        slots.iter().map(value).collect()
+    }
+}
+
+impl Session for Portable {
+    fn inputs(&self) -> &[Port] {
+        &self.plan.inputs
+    }
+
+    fn outputs(&self) -> &[Port] {
+        &self.plan.outputs
+    }
+
+    fn run(&self, inputs: &[(&str, &Tensor)]) -> Result<Vec<(String, Tensor)>, RunError> {
+        let plan = &self.plan;
+        let values = self.compute(inputs, plan.steps.len(), &plan.output_slots)?;
+        let names = plan.outputs.iter().map(|port| port.name.clone());
+        Ok(names.zip(values).collect())
     }
 }
 
@@ -185,4 +221,36 @@ fn canonical(mut tensor: Tensor) -> Tensor {
         }
     }
     tensor
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Dim, ElementType, build::GraphBuilder};
+
+    /// Claim: a named value is what the graph computes on its way, and costs nothing behind it.
+    #[test]
+    fn named_values_are_those_on_the_way() {
+        let mut graph = GraphBuilder::new("powers");
+        let x = graph.input("x", ElementType::F32, &[Dim::named("B")]);
+        let two = graph.constant("two", Tensor::f32(&[], vec![2.0]));
+        let double = graph.mul(&x, &two);
+        let square = graph.mul(&double, &double);
+        let bad = graph.constant("bad", Tensor::f32(&[3], vec![1.0; 3]));
+        let last = graph.mul(&square, &bad);
+        graph.output("y", &last, ElementType::F32, &[Dim::Any]);
+        let network = Portable::from_bytes(&graph.finish().expect("a graph")).expect("a network");
+        let x = Tensor::f32(&[2], vec![1.0, 3.0]);
+        let inputs = [("x", &x)];
+        // The last product does not fit two numbers.
+        assert!(network.run(&inputs).is_err());
+        let names = [square.name(), double.name()];
+        let values = network.values(&inputs, &names).expect("both");
+        let values: Vec<_> = values.iter().map(|value| value.as_f32()).collect();
+        assert_eq!(values, [Some(&[4.0, 36.0][..]), Some(&[2.0, 6.0])]);
+        for other in ["x", "two", "none"] {
+            let error = network.values(&inputs, &[other]).expect_err(other);
+            assert!(error.to_string().contains(other), "{error}");
+        }
+    }
 }

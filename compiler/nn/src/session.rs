@@ -116,6 +116,12 @@ pub enum RunError {
         /// Why.
         source: OpError,
     },
+    /// A value that the graph does not compute under this name.
+    #[error("no step of the network computes a value `{name}`")]
+    UnknownValue {
+        /// The name.
+        name: String,
+    },
     /// An external back end failed.
     #[error("{backend}: {message}")]
     Backend {

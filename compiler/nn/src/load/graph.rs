@@ -48,6 +48,8 @@ pub(crate) struct Plan {
     /// The value of each slot, if it does not depend on the inputs.
     pub(crate) constants: Vec<Option<Constant>>,
     pub(crate) steps: Vec<Step>,
+    /// The slots of names.
+    pub(crate) slots: HashMap<String, Slot>,
 }
 
 /// Reads and checks a model.
@@ -278,6 +280,7 @@ impl Builder {
             output_slots,
             constants: self.constants,
             steps: self.steps,
+            slots: self.slots,
         })
     }
 }
