@@ -392,6 +392,13 @@ fn certainty_is_told_and_can_be_asked_for() {
     );
     assert!(!folder.join("some.aspl").exists());
     assert_eq!(asperity(folder, &least("sure")).status.code(), Some(2));
-    good(folder, &least("guess"));
+    // "yellow" names nothing that is touched.
+    let refused = asperity(folder, &least("guess"));
+    let said = text(&refused.stderr);
+    assert!(
+        said.contains("no_contact") && said.contains("list.csv:3") && !said.contains("list.csv:5"),
+        "{said}"
+    );
+    good(folder, &least("no_contact"));
     assert_eq!(bytes(folder, "some.aspl"), bytes(folder, "all.aspl"));
 }

@@ -253,18 +253,18 @@ fn words_are_told_by_what_they_moved() {
         })
         .collect();
     let expected = [
+        ("P80", "number"),
         ("very", "degree"),
         ("rough", "quality"),
         ("oak", "name"),
         ("table", "name"),
-        ("P80", "number"),
     ];
     assert_eq!(roles, expected);
     assert!(
         json["phrase"]
             .as_str()
             .unwrap()
-            .starts_with("oak table P80, rough +"),
+            .starts_with("P80 oak table, rough +"),
         "{json}"
     );
     let output = asperity(folder.path(), &compile);

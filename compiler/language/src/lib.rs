@@ -5,15 +5,18 @@
 //! | `words` | a text as words in one form, and numbers with a scale |
 //! | `lexicon` | names of things, what they are made of, and qualities |
 //! | `phrase` | qualities, materials and covers of what is named |
-//! | `reading` | which words of a text say something about touch |
+//! | `roles` | which words of a sentence say what is touched, by a small network |
+//! | `reading` | what a text says is touched, as one phrase |
 //! | `vocabulary` | sorted tables in the text of a file |
 //!
-//! Nothing here knows a model, a texture or a file. What a table of word vectors adds stands behind [`WordVectors`].
+//! Nothing here knows a texture, a text encoder or a file. A table of word vectors and the states of words inside an encoder
+//! stand behind [`WordVectors`] and [`roles::WordStates`].
 #![forbid(unsafe_code)]
 
 pub mod lexicon;
 pub mod phrase;
 pub mod reading;
+pub mod roles;
 mod vocabulary;
 pub mod words;
 

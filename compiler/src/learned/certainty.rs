@@ -10,6 +10,8 @@ use std::{
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Certainty {
+    /// Nothing is touched in it.
+    NoContact,
     /// Nothing in it is known, or says how something feels.
     Guess,
     /// It is put together of what is known, or near to it.
@@ -20,13 +22,14 @@ pub enum Certainty {
 
 impl Certainty {
     /// The share of comparisons with such prompts that came out as a person rated them, 0..=1
-    /// (`docs/words.md`; `compiler/tests/prompts/certainty.rs` measures it).
+    /// (`docs/words.md`; `compiler/tests/prompts/certainty.rs` measures it). Of what is
+    /// not touched, it is that of a guess.
     #[must_use]
     pub const fn share(self) -> f64 {
         match self {
             Self::Known => 0.97,
             Self::Close => 0.91,
-            Self::Guess => 0.77,
+            Self::Guess | Self::NoContact => 0.75,
         }
     }
 }
@@ -35,7 +38,7 @@ impl FromStr for Certainty {
     type Err = ();
 
     fn from_str(text: &str) -> Result<Self, ()> {
-        let all = [Self::Guess, Self::Close, Self::Known];
+        let all = [Self::NoContact, Self::Guess, Self::Close, Self::Known];
         all.into_iter()
             .find(|level| level.to_string() == text)
             .ok_or(())
@@ -46,6 +49,7 @@ impl Display for Certainty {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Guess => "guess",
+            Self::NoContact => "no_contact",
             Self::Close => "close",
             Self::Known => "known",
         })

@@ -3,12 +3,14 @@
 use super::{
     Files, ModelError,
     inference::Backend,
-    text::{Vocabulary, WithWords, WordTable, minilm::MiniLm},
+    text::{Vocabulary, WithWords, WordStates, WordTable, minilm::MiniLm},
 };
 use asperity_model::{
     AR_DECODER, DESCRIPTION, ENCODER, MODEL_CRC32, TAP_DECODER, TEXT_ENCODER, TEXT_PROJECTION,
     VOCABULARY, WORD_ROWS, WORD_VECTORS, WORD_WIDTH,
 };
+use asperity_nn::{Bytes, Portable};
+use std::sync::LazyLock;
 
 /// The files of the shipped model.
 #[must_use]
@@ -37,6 +39,22 @@ pub fn text_encoder(backend: &Backend) -> Result<WithWords<MiniLm>, ModelError> 
     let table = word_table()?;
     let sentence = MiniLm::new(session, Vocabulary::new(VOCABULARY));
     Ok(WithWords::new(sentence, table))
+}
+
+/// States of words in the same encoder, on the portable engine whatever the back end.
+///
+/// # Errors
+/// [`ModelError::Network`] when the engine refuses it.
+pub fn word_states() -> Result<WordStates, ModelError> {
+    static NETWORK: LazyLock<Result<Portable, String>> = LazyLock::new(|| {
+        let network = Portable::from_shared(Bytes::from_static(TEXT_ENCODER));
+        network.map_err(|error| error.to_string())
+    });
+    let network = NETWORK.as_ref().map_err(|message| ModelError::Network {
+        file: "text_encoder.onnx".into(),
+        message: message.clone(),
+    })?;
+    Ok(WordStates::new(network, Vocabulary::new(VOCABULARY)))
 }
 
 /// The table of words.

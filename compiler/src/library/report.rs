@@ -77,7 +77,11 @@ impl fmt::Display for Report {
         if self.lowered > 0 {
             write!(f, "; auto-gain lowered the vibration of {}", self.lowered)?;
         }
-        let guess = |row: &&Row| row.facts.certainty_level == Some(Certainty::Guess);
+        let guess = |row: &&Row| {
+            row.facts
+                .certainty_level
+                .is_some_and(|level| level <= Certainty::Guess)
+        };
         match self.textures.iter().filter(guess).count() {
             0 => {}
             1 => write!(f, "; 1 is a guess")?,

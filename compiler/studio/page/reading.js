@@ -10,6 +10,8 @@ const LEAST = 5;
 /** Smallest second move that is shown. */
 const LEAST_SECOND = 15;
 const MOST_MATERIALS = 6;
+/** Roles of words that move nothing. */
+const NOT_ENCODED = ["object", "denied", "tool", "left out"];
 
 const plain = (word) => word.toLowerCase().replace(/[^\p{L}\p{N}-]/gu, "");
 
@@ -33,7 +35,7 @@ function wordElement({ word, role, moved }) {
     .filter(([, by]) => Math.abs(by) >= LEAST)
     .sort((a, b) => Math.abs(b[1]) - Math.abs(a[1]));
   const signed = (by) => `${by < 0 ? "−" : "+"}${Math.abs(by).toFixed(0)}`;
-  const gone = role === null || role === "left out";
+  const gone = role === null || NOT_ENCODED.includes(role);
   const shown = moves.filter(([, by], n) => n === 0 || (n === 1 && Math.abs(by) >= LEAST_SECOND));
   return element("li", { class: "word", "data-role": role ?? "unused", "data-moved": gone ? undefined : moves[0]?.[0] },
     element("span", { class: "said" }, word),
@@ -44,7 +46,8 @@ function wordElement({ word, role, moved }) {
 /** Warnings of the command that no row shows. */
 function notes({ warnings = [], corrected, not_understood = [], certainty_level }) {
   const shown = [corrected?.said, ...not_understood].filter(Boolean);
-  const isShown = (text) => shown.some((word) => text.includes(word)) || (certainty_level === "guess" && text.startsWith("a guess"));
+  const isShown = (text) => shown.some((word) => text.includes(word)) || (certainty_level === "guess" && text.startsWith("a guess")) ||
+    (certainty_level === "no_contact" && text.startsWith("nothing in the prompt is touched"));
   return warnings.filter((text) => !isShown(text));
 }
 

@@ -31,7 +31,9 @@ fn rated() -> Vec<Rated> {
         let ratings: Vec<f64> = fields.map(|x| x.parse().expect(line)).collect();
         let a = attributes::of(&PROMPTS.texture(&phrase).expect(line));
         let felt = [a.rough_db.expect(line), -a.mu, a.hard_hz.expect(line)];
+        // What is not touched is a guess as well.
         let certainty = PROMPTS.project(&phrase).expect(line).certainty;
+        let certainty = certainty.max(Certainty::Guess);
         (phrase, certainty, ratings.try_into().expect(line), felt)
     };
     lines.par_iter().map(line).collect()

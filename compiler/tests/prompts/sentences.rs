@@ -50,9 +50,7 @@ fn same(prompt: &str, bare: &str) -> bool {
 
 /// Whether a prompt is said to name nothing that is touched.
 fn none(prompt: &str) -> bool {
-    let named = !PROMPTS.read(prompt).names.is_empty();
-    let certainty = PROMPTS.project(prompt).expect(prompt).certainty;
-    !named && certainty == Certainty::Guess
+    PROMPTS.project(prompt).expect(prompt).certainty == Certainty::NoContact
 }
 
 /// What holds of a set: each claim with the prompts that it holds for, of all.

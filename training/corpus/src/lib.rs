@@ -14,6 +14,7 @@ pub mod leaks;
 mod material;
 pub mod measured;
 pub mod reference;
+pub mod sentences;
 
 pub use error::CorpusError;
 pub use generator::constants::ConstantSet;

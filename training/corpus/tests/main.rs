@@ -5,3 +5,4 @@ mod evaluation;
 mod lexicon;
 mod measured;
 mod names;
+mod sentences;

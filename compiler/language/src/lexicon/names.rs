@@ -21,7 +21,7 @@ pub fn key(name: &str) -> Option<String> {
     let tokens = normalise(name);
     let words = tokens.iter().filter_map(|token| match token {
         Token::Word(word) => Some(word.as_str()),
-        Token::Break => None,
+        Token::Break(_) => None,
     });
     let words: Vec<&str> = words.collect();
     (1..=LONGEST).contains(&words.len()).then(|| key_of(&words))

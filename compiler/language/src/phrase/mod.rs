@@ -25,7 +25,7 @@ mod words;
 use crate::words::grade::Grade;
 
 pub use parse::{is_cover, parse};
-pub use quality::{is_degree, is_lasting, is_quality};
+pub use quality::{is_adjective, is_degree, is_lasting, is_quality};
 pub use relative::{Relative, Towards, relative};
 pub use table::quality_words;
 

@@ -36,6 +36,12 @@ pub fn is_lasting(word: &str) -> bool {
         || table::noun(word).is_some()
 }
 
+/// Whether a word is an adjective or a state, of a material or in an edit: "wet".
+#[must_use]
+pub fn is_adjective(word: &str) -> bool {
+    adjective(word, Use::Edit).is_some() || compared(word, Use::Edit).is_some()
+}
+
 /// Whether a word says how much: "very", "slightly".
 #[must_use]
 pub fn is_degree(word: &str) -> bool {

@@ -1,12 +1,18 @@
-//! Prompts that describe at length what no name says: they are encoded as they are.
+//! Short descriptions of what no name says: "a manhole lid in a downpour". They are encoded as a whole, since what stands
+//! behind the thing changes it.
 
 use super::{
-    closed_class::{ACROSS, PLACES, is_colour, is_covering},
-    segment::{Class, Item, is_name},
+    closed_class::{is_colour, is_covering, is_place},
+    segment::{Class, Item},
 };
 
+/// Whether a text describes one thing, and no part of it alone says what is touched.
+pub(super) fn is_whole(items: &[Item]) -> bool {
+    has_unknown_head(items) || is_description(items)
+}
+
 /// Subjects that begin a clause about an object.
-pub(super) const SUBJECTS: &[&str] = &[
+const SUBJECTS: &[&str] = &[
     "that",
     "which",
     "who",
@@ -28,10 +34,14 @@ const PERSONS: &[&str] = &[
     "mine",
 ];
 
+fn is_name(item: &Item) -> bool {
+    item.class == Class::Name
+}
+
 /// Whether what a prompt is about is known by no name, and names only say more of it: "the welds on a
 /// farm gate", "the clods thrown up by a mole". It is the last word of what follows an article at the
 /// beginning.
-pub(super) fn has_unknown_head(items: &[Item]) -> bool {
+fn has_unknown_head(items: &[Item]) -> bool {
     let frame = |item: &&Item| {
         let article = ["a", "an", "the"].contains(&item.text.as_str());
         !article
@@ -59,7 +69,7 @@ pub(super) fn has_unknown_head(items: &[Item]) -> bool {
     let (phrase, after) = rest.split_at(count);
     let joins = |item: &Item| {
         let text = item.text.as_str();
-        text == "of" || ACROSS.contains(&text) || PLACES.contains(&text) || is_covering(text)
+        text == "of" || is_place(text) || is_covering(text)
     };
     let unknown = |item: &Item| {
         matches!(item.class, Class::Thing | Class::Other)
@@ -78,7 +88,11 @@ pub(super) fn has_unknown_head(items: &[Item]) -> bool {
 /// Whether a prompt describes an object at length and does not mention who asks: "an insect hotel packed
 /// with cones", "a manhole lid in a downpour". What it says behind the name cannot be left out word by
 /// word.
-pub(super) fn is_description(items: &[Item], kept: &[bool]) -> bool {
+fn is_description(items: &[Item]) -> bool {
+    let kept: Vec<bool> = items
+        .iter()
+        .map(|item| matches!(item.class, Class::Name | Class::Thing))
+        .collect();
     let is = |item: &Item, words: &[&str]| words.contains(&item.text.as_str());
     let talks = |item: &Item| matches!(item.class, Class::Act | Class::Break) || is(item, PERSONS);
     if items.iter().any(talks) {
@@ -110,14 +124,14 @@ pub(super) fn is_description(items: &[Item], kept: &[bool]) -> bool {
         let here = |next: &Item| is(next, &["the", "this", "that"]);
         let state = is(&after[*n], &["in", "under", "on", "out", "off"])
             && !after.get(n + 1).is_some_and(here);
-        let begins = is(&after[*n], PLACES) || is(&after[*n], ACROSS) || is(&after[*n], SUBJECTS);
+        let begins = is_place(&after[*n].text) || is(&after[*n], SUBJECTS);
         begins && !state
     };
     let own = (0..after.len()).take_while(|n| !place(n));
     let own: Vec<&Item> = own.map(|n| &after[n]).collect();
     let state = own
         .iter()
-        .any(|item| is(item, PLACES) && item.class != Class::Link);
+        .any(|item| is_place(&item.text) && item.class != Class::Link);
     let says = |item: &&Item| matches!(item.class, Class::Name | Class::Thing | Class::Touch);
     let look = |item: &&Item| is_colour(&item.text) || item.text.ends_with("'s");
     let mut own = own.iter().copied();

@@ -4,7 +4,7 @@ use super::Reading;
 use crate::{
     lexicon::is_name,
     phrase::{self, Changes, Phrase},
-    words::grade::Grade,
+    words::{grade::Grade, singular},
 };
 use serde::Serialize;
 
@@ -13,12 +13,13 @@ use serde::Serialize;
 pub struct Taken {
     /// The words as they were read.
     pub text: String,
-    /// `name`, `number`, `quality`, `degree`, `word` for what is encoded besides, or `left out`.
+    /// `name`, `number`, `quality`, `degree`, `word` for what is encoded besides; of what is not, `object` for what carries
+    /// the surface, `denied`, `tool`, or `left out`.
     pub role: &'static str,
 }
 
 impl Reading {
-    /// What became of every word, those that are left out at the end.
+    /// What became of every word, those that are not encoded at the end.
     #[must_use]
     pub fn taken(&self) -> Vec<Taken> {
         let role = |text: &String| match text.as_str() {
@@ -29,7 +30,17 @@ impl Reading {
             _ => "word",
         };
         let kept = self.words.iter().map(|text| (text, role(text)));
-        let gone = self.ignored.iter().map(|text| (text, "left out"));
+        let others = self.others.iter().map(|(role, text)| (text, role.name()));
+        let said = |text: &&String| {
+            let mut others = self.others.iter();
+            others.any(|(_, other)| {
+                other
+                    .split(' ')
+                    .any(|word| singular(word) == singular(text))
+            })
+        };
+        let gone = self.ignored.iter().filter(|text| !said(text));
+        let gone = gone.map(|text| (text, "left out")).chain(others);
         let taken = |(text, role): (&String, _)| Taken {
             text: text.clone(),
             role,

@@ -123,7 +123,7 @@ pub(super) fn divide(
 /// Takes lists of what maps are of: "brick, albedo, normal, roughness".
 fn listed(tokens: &mut Vec<Token>, gone: &mut Vec<String>) {
     let clauses: Vec<&[Token]> = tokens
-        .split(|token| *token == Token::Break)
+        .split(|token| token.word().is_none())
         .filter(|clause| !clause.is_empty())
         .collect();
     let is_map = |clause: &[Token]| is_map(&said(clause));
@@ -134,7 +134,7 @@ fn listed(tokens: &mut Vec<Token>, gone: &mut Vec<String>) {
         return;
     }
     gone.extend(lists.concat().into_iter().map(said));
-    *tokens = rest.concat().join(&Token::Break);
+    *tokens = rest.concat().join(&Token::Break(','));
 }
 
 /// The words of tokens.
@@ -163,10 +163,11 @@ fn named(tokens: &[Token]) -> Option<usize> {
 }
 
 fn word(token: Option<&Token>) -> Option<&str> {
-    match token? {
-        Token::Word(word) => Some(word),
-        Token::Break => None,
-    }
+    token?.word()
+}
+
+fn is_break(token: Option<&Token>) -> bool {
+    token.is_some_and(|token| token.word().is_none())
 }
 
 /// Takes what a prompt does not want, up to what it wants again, and settings of a sampler.
@@ -182,8 +183,8 @@ fn unwanted(tokens: &mut Vec<Token>, gone: &mut Vec<String>) {
         return;
     };
     let wanted = |at: &usize| {
-        let begins = tokens[at - 1] == Token::Break || is(at - 1, &["positive"]);
-        begins && is(*at, prompt) && tokens.get(at + 1) == Some(&Token::Break)
+        let begins = tokens[at - 1].word().is_none() || is(at - 1, &["positive"]);
+        begins && is(*at, prompt) && is_break(tokens.get(at + 1))
     };
     let end = (start + 2..tokens.len())
         .find(wanted)
@@ -216,7 +217,7 @@ fn longest(tokens: &[Token]) -> Option<(usize, &'static str)> {
             return Some((count, role));
         }
         // "roughness: 0.8", but "roughness 0.8 µm"
-        let colon = usize::from(tokens.get(count) == Some(&Token::Break));
+        let colon = usize::from(is_break(tokens.get(count)));
         let value = word(tokens.get(count + colon))?.parse::<f64>().ok()?;
         (0.0..=1.0)
             .contains(&value)
@@ -241,7 +242,7 @@ fn is_resolution(word: &str) -> bool {
 fn ends(after: &[Token]) -> bool {
     let clause = after
         .iter()
-        .take_while(|token| **token != Token::Break)
+        .take_while(|token| token.word().is_some())
         .count();
     let more = || (1..clause).any(|at| longest(&after[at..clause]).is_some());
     match word(after.first()) {

@@ -12,22 +12,29 @@ use crate::{
 
 /// Parts that are as the whole is.
 const WHOLE: &[&str] = &[
-    "body", "end", "head", "middle", "piece", "point", "side", "surface", "tip", "top",
+    "back", "body", "end", "head", "layer", "length", "lump", "middle", "piece", "point", "roll",
+    "sheet", "side", "slab", "square", "strip", "surface", "tip", "top",
 ];
 
-/// Items without what a part belongs to, or without the part; the words that went are added to those that are `gone`.
-pub(super) fn divide(mut items: Vec<Item>, gone: &mut Vec<String>) -> Vec<Item> {
+/// Items without what a part belongs to, or without the part.
+pub(super) fn divide(mut items: Vec<Item>) -> Vec<Item> {
     let mut n = 0;
     while n < items.len() {
         let part = singular(&items[n].text);
         if is_own_part(&part) {
-            own(&mut items, n, gone);
+            own(&mut items, n);
         } else if is(WHOLE, &part) {
-            whole(&mut items, n, gone);
+            whole(&mut items, n);
         }
         n += 1;
     }
     items
+}
+
+/// Whether a word names a part, which is one by itself or is as the whole is.
+pub(super) fn is_part(word: &str) -> bool {
+    let part = singular(word);
+    is_own_part(&part) || is(WHOLE, &part)
 }
 
 fn is(parts: &[&str], part: &str) -> bool {
@@ -45,7 +52,7 @@ fn owner(items: &[Item], n: usize) -> Option<std::ops::Range<usize>> {
 }
 
 /// "the handle of a toothbrush", "toothbrush handle".
-fn own(items: &mut Vec<Item>, n: usize, gone: &mut Vec<String>) {
+fn own(items: &mut Vec<Item>, n: usize) {
     let thing =
         |item: &Item| is_name(item) && substance(&item.text).is_none() && !is_quality(&item.text);
     let owned = |item: &Item| item.text.ends_with("'s");
@@ -54,7 +61,6 @@ fn own(items: &mut Vec<Item>, n: usize, gone: &mut Vec<String>) {
         if !thing(&items[last]) {
             return;
         }
-        gone.push(items[last].said.clone());
         // Of "a wooden spoon", the handle is wooden.
         match items[last].said.split(' ').next().and_then(substance) {
             Some(of) => {
@@ -70,7 +76,7 @@ fn own(items: &mut Vec<Item>, n: usize, gone: &mut Vec<String>) {
             }
         }
     } else if n > 0 && (thing(&items[n - 1]) || owned(&items[n - 1])) {
-        gone.push(items.remove(n - 1).said);
+        items.remove(n - 1);
         n - 1
     } else {
         return;
@@ -79,8 +85,7 @@ fn own(items: &mut Vec<Item>, n: usize, gone: &mut Vec<String>) {
 }
 
 /// "the ends of a rope", "rope end", "a rope's end".
-fn whole(items: &mut Vec<Item>, n: usize, gone: &mut Vec<String>) {
-    let said = items[n].said.clone();
+fn whole(items: &mut Vec<Item>, n: usize) {
     // "the cutting edge of a guillotine" is no guillotine.
     let content = |item: &Item| {
         !matches!(
@@ -98,18 +103,13 @@ fn whole(items: &mut Vec<Item>, n: usize, gone: &mut Vec<String>) {
         && items.get(n + 1).is_none_or(|next| next.text != "of")
     {
         items.remove(n);
-    } else if let Some(name) = n
-        .checked_sub(1)
-        .and_then(|at| items[at].text.strip_suffix("'s"))
-    {
-        let Some(name) = lexicon::name(&[name]) else {
-            return;
-        };
-        items.splice(n - 1..=n, [named(name)]);
     } else {
-        return;
+        let before = n.checked_sub(1).map(|at| items[at].text.as_str());
+        let owner = before.and_then(|text| text.strip_suffix("'s"));
+        if let Some(name) = owner.and_then(|name| lexicon::name(&[name])) {
+            items.splice(n - 1..=n, [named(name)]);
+        }
     }
-    gone.push(said);
 }
 
 fn named(name: &str) -> Item {

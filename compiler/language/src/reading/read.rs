@@ -1,258 +1,265 @@
-//! Which items of a prompt say something of a surface.
+//! Which words of a text say what is touched, as one phrase.
 
 use super::{
     Reading,
-    closed_class::{ACROSS, PLACES, TOOLS, is_act, is_colour, is_determiner},
-    description::{SUBJECTS, has_unknown_head, is_description},
-    segment::{Class, Item, is_name},
+    closed_class::{is_colour, is_determiner},
+    parts,
+    segment::{Class, Item},
 };
-use crate::{lexicon, phrase, words::grade::Grade};
+use crate::{
+    lexicon, phrase,
+    words::{grade::Grade, singular},
+};
 
-/// What follows one of these happened to an object: "a chin after the barber".
-const EVENTS: &[&str] = &["after", "before", "until"];
-
-/// Reads items; what is no prose is left as it is.
-pub(super) fn read(items: &[Item], prose: bool) -> Reading {
-    if !prose || !items.iter().any(is_name) || has_unknown_head(items) {
-        return unnamed(items);
-    }
-    let kept = spared(items);
-    if is_description(items, &kept) {
-        unnamed(items)
-    } else {
-        named(items, kept)
-    }
+/// Words that stand together and say something of the surface.
+#[derive(Debug, Clone)]
+pub(super) struct Group {
+    pub(super) items: Vec<Item>,
+    /// How surely they do, up to 1.
+    pub(super) surface: f32,
 }
 
-/// What a prompt that names something says of it.
-fn named(items: &[Item], mut kept: Vec<bool>) -> Reading {
-    degrees(items, &mut kept);
-    links(items, &mut kept);
-    let content = |n: &usize| {
-        matches!(
-            items[*n].class,
-            Class::Name | Class::Touch | Class::Thing | Class::Other
-        )
+/// Whether the tables alone say what a text is: it has nothing but names, qualities and what joins them.
+pub(super) fn is_bare(items: &[Item]) -> bool {
+    let listed = |text: &str| {
+        phrase::is_quality(text) || lexicon::is_quality(text) || Grade::of(text).is_some()
     };
-    let ignored = (0..items.len()).filter(|n| !kept[*n]).filter(content);
-    let ignored = ignored.map(|n| items[n].text.clone()).collect();
-    let words = (0..items.len()).filter(|n| kept[*n]);
-    let words: Vec<String> = words.map(|n| items[n].text.clone()).collect();
-    let names = (0..items.len()).filter(|n| kept[*n] && items[*n].class == Class::Name);
-    Reading {
-        says: true,
-        names: names.map(|n| items[n].text.clone()).collect(),
-        words,
-        ignored,
-        ..Reading::default()
-    }
+    // In a few words, what a word vector says of a word is enough.
+    let few = items.len() <= FEW;
+    let named = items.iter().any(|item| item.class == Class::Name);
+    let plain = |item: &Item| match item.class {
+        Class::Name | Class::Degree | Class::Break | Class::Link | Class::Denial => true,
+        Class::Touch => few || listed(&item.text),
+        Class::Thing => few || parts::is_part(&item.text),
+        // How near they lie to what the model knows decides the rest.
+        Class::Other => items.len() < FEW && !named && !is_colour(&item.text),
+        Class::Function => is_determiner(&item.text) && !PERSONS.contains(&item.text.as_str()),
+        _ => false,
+    };
+    // "steel, not wood": what is denied is no quality.
+    let said: Vec<&Item> = items
+        .iter()
+        .filter(|item| !is_determiner(&item.text))
+        .collect();
+    let denied = |pair: &[&Item]| pair[0].class == Class::Denial && !listed(&pair[1].text);
+    items.iter().all(plain) && !said.windows(2).any(denied)
 }
 
-/// Whether a word is an article or a small number.
-fn is_counted(word: &str) -> bool {
-    const WORDS: &[&str] = &["a", "an", "the", "two", "three", "four", "five", "six"];
-    WORDS.contains(&word)
-}
+/// Words of a text that is read by word vectors alone.
+const FEW: usize = 3;
+/// Words for people, who stand in sentences alone.
+const PERSONS: &[&str] = &[
+    "i", "you", "he", "she", "we", "they", "me", "him", "us", "them", "who",
+];
+/// Parts that are as their owner is, and need its name.
+const OWNED: &[&str] = &[
+    "back", "belly", "coat", "feather", "fur", "hair", "hide", "leaf", "mane", "muzzle", "peel",
+    "pelt", "rind", "scale", "shell", "skin", "snout", "stem", "tail", "tongue",
+];
 
-/// Whether a word stands where a noun does.
-fn stands_as_noun(items: &[Item], n: usize) -> bool {
-    let before = n.checked_sub(1).map(|before| &items[before]);
-    let joined = before.is_some_and(|item| {
-        is_determiner(&item.text)
-            || matches!(item.class, Class::Name | Class::Touch | Class::Thing)
-            || ["of", "with", "without", "and", "or", "than", "like"].contains(&item.text.as_str())
-    });
-    joined
-        || items
-            .get(n + 1)
-            .is_some_and(|next| is_name(next) || next.text == "of")
-}
-
-/// Names and words of touch, without those of places, of owners, and of what touches.
-fn spared(items: &[Item]) -> Vec<bool> {
-    let mut kept = vec![false; items.len()];
-    let word = |n: usize| items.get(n).map_or("", |item| item.text.as_str());
-    // Whether a name stands before, and whether what follows is a place, or a clause about it.
-    let (mut named, mut place, mut clause, mut event) = (false, false, false, false);
-    for (n, item) in items.iter().enumerate() {
-        let text = item.text.as_str();
-        let before = n.checked_sub(1).map_or("", word);
-        match item.class {
-            Class::Break => (place, clause, event) = (false, false, false),
-            _ if event => kept[n] = true,
-            _ if named && !place && !clause && EVENTS.contains(&text) => {
-                event = true;
-                kept[n] = true;
-                // "two days after"
-                let time = |m: &usize| items[*m].class == Class::Other;
-                let times: Vec<usize> = (0..n).rev().take_while(time).collect();
-                times.into_iter().for_each(|m| kept[m] = true);
-            }
-            _ if item.class == Class::Link && ["in", "by", "from"].contains(&text) => {}
-            _ if PLACES.contains(&text) || (ACROSS.contains(&text) && named) => place |= named,
-            _ if text == "with" || text == "but" || text == "without" => place = false,
-            _ if named && SUBJECTS.contains(&text) => clause = true,
-            Class::Name => {
-                let shade = is_shade(items, n) && later(items, n + 1);
-                let joined = ["like", "than", "as", "with", "and", "in", "by"].contains(&before);
-                let elsewhere = place || shade || (clause && !joined);
-                let said = !elsewhere && !explores(items, n);
-                kept[n] = said;
-                named |= said;
-            }
-            // "pale yellow"
-            Class::Touch => kept[n] = !is_colour(word(n + 1)),
-            Class::Thing => {
-                kept[n] = !place && !clause && !is_shade(items, n) && stands_as_noun(items, n);
-            }
-            _ => {}
+impl Group {
+    /// What is not there: "not slippery", "without grit".
+    pub(super) fn denied(quality: Item) -> Self {
+        let denial = if phrase::is_adjective(&quality.text) {
+            "not"
+        } else {
+            "without"
+        };
+        let denial = Item {
+            text: denial.to_owned(),
+            said: denial.to_owned(),
+            class: Class::Denial,
+        };
+        Self {
+            items: vec![
+                denial,
+                Item {
+                    class: Class::Touch,
+                    ..quality
+                },
+            ],
+            surface: 1.0,
         }
     }
-    if kept
-        .iter()
-        .zip(items)
-        .any(|(kept, item)| *kept && item.class == Class::Name)
-    {
+
+    fn content(&self) -> impl Iterator<Item = &Item> {
+        self.items.iter().filter(|item| is_content(item))
+    }
+
+    /// Whether it names or describes something, and does not only say how it feels.
+    fn is_thing(&self) -> bool {
+        self.content().any(is_thing)
+    }
+
+    /// Whether it ends in a part that needs its owner's name.
+    fn is_owned(&self) -> bool {
+        let mut things = self.content().filter(|item| is_thing(item));
+        let one = things.next().filter(|_| things.next().is_none());
+        one.is_some_and(|item| OWNED.contains(&&*singular(&item.text)))
+    }
+}
+
+fn is_thing(item: &Item) -> bool {
+    is_content(item) && item.class != Class::Touch && !is_adjective(item)
+}
+
+/// Whether a word says how something is, by the tables, or by its ending if no table holds it: "wet", "riven".
+fn is_adjective(item: &Item) -> bool {
+    const ENDINGS: &[&str] = &["ed", "en", "ish", "less", "like", "y"];
+    let text = item.text.as_str();
+    match item.class {
+        Class::Name => phrase::is_adjective(text) || lexicon::is_quality(text),
+        _ => ENDINGS.iter().any(|end| text.ends_with(end)),
+    }
+}
+
+fn is_content(item: &Item) -> bool {
+    match item.class {
+        Class::Name | Class::Touch | Class::Thing => true,
+        Class::Other => !is_colour(&item.text),
+        _ => false,
+    }
+}
+
+/// One phrase of groups: their qualities, and then the things.
+pub(super) fn phrase_of(groups: Vec<Group>) -> Vec<String> {
+    let (mut words, mut things) = (Vec::new(), Vec::new());
+    for group in groups {
+        let [qualities, thing] = divided(tidy(group.items));
+        words.extend(qualities);
+        things.extend(thing);
+    }
+    words.extend(parts::divide(things));
+    words.into_iter().map(|item| item.text).collect()
+}
+
+/// The groups of a sentence without all things but the surest, which stands last, behind its owner if it is a part.
+pub(super) fn one_thing(groups: Vec<Group>) -> Vec<Group> {
+    let (mut things, mut kept): (Vec<Group>, Vec<Group>) =
+        groups.into_iter().partition(Group::is_thing);
+    // With a name rather than without; of equals, the last.
+    let rank = |group: &Group| {
+        (
+            group.items.iter().any(|item| item.class == Class::Name),
+            group.surface,
+        )
+    };
+    let surest = |things: &[Group]| {
+        let ranks: Vec<(bool, f32)> = things.iter().map(rank).collect();
+        let order = |a: &usize, b: &usize| {
+            let by_name = ranks[*a].0.cmp(&ranks[*b].0);
+            by_name.then(ranks[*a].1.total_cmp(&ranks[*b].1))
+        };
+        (0..things.len()).max_by(order)
+    };
+    let Some(n) = surest(&things) else {
         return kept;
+    };
+    let part = things.iter().rposition(Group::is_owned);
+    let thing = things.remove(part.unwrap_or(n));
+    if thing.is_owned()
+        && let Some(owner) = surest(&things)
+    {
+        kept.push(things.remove(owner));
     }
-    // Nothing but places and tools: the last of them is meant.
-    for (kept, item) in kept.iter_mut().zip(items) {
-        *kept |= item.class == Class::Name;
-    }
+    kept.push(Group {
+        items: of_material(thing.items),
+        ..thing
+    });
     kept
 }
 
-/// Whether a name is a colour or a picture of what follows: "orange", "emerald green", "leopard
-/// print", "watercolour painting of".
-fn is_shade(items: &[Item], n: usize) -> bool {
-    let colour = |n: usize| items.get(n).is_some_and(|item| is_colour(&item.text));
-    let picture = items
-        .get(n + 1)
-        .is_some_and(|item| item.class == Class::Act)
-        && items.get(n + 2).is_some_and(|item| item.text == "of");
-    let of = items.get(n + 1).is_some_and(|item| item.text == "of");
-    let depicts = items[n].text.rsplit(' ').next().is_some_and(is_act);
-    colour(n) || colour(n + 1) || picture || (depicts && of)
+/// Without what carries a material with a quality: "handle greasy rubber".
+fn of_material(items: Vec<Item>) -> Vec<Item> {
+    let quality = |item: &Item| is_content(item) && !is_thing(item);
+    let begins = |n: &usize| {
+        let carried = is_thing(&items[n - 1]) && quality(&items[*n]);
+        carried && items[*n..].iter().any(is_thing)
+    };
+    let start = (1..items.len()).rev().find(begins).unwrap_or(0);
+    items[start..].to_vec()
 }
 
-/// Whether a name stands behind an item.
-fn later(items: &[Item], from: usize) -> bool {
-    items[from..].iter().any(|item| item.class == Class::Name)
-}
-
-/// Whether a name is what a surface is explored with: "a finger over", "with my pen".
-fn explores(items: &[Item], n: usize) -> bool {
-    if !TOOLS.iter().any(|tool| *tool == items[n].text) {
-        return false;
+/// Qualities behind what they are of, and the rest: "iron that is rusty".
+fn divided(items: Vec<Item>) -> [Vec<Item>; 2] {
+    let last = items.iter().rposition(is_thing);
+    let Some(last) = last.filter(|last| last + 1 < items.len()) else {
+        let quality = items.iter().all(|item| !is_thing(item));
+        return if quality {
+            [items, Vec::new()]
+        } else {
+            [Vec::new(), items]
+        };
+    };
+    const JOIN: &[&str] = &["and", "but", "is", "are", "was", "that", "has", "have"];
+    let (thing, behind) = items.split_at(last + 1);
+    let joins = |item: &Item| JOIN.contains(&item.text.as_str());
+    let says = |item: &Item| {
+        matches!(item.class, Class::Degree | Class::Denial)
+            || (is_content(item) && !is_thing(item))
+            || item.text == "at all"
+    };
+    if !behind.iter().all(|item| says(item) || joins(item)) || behind[0].class == Class::Denial {
+        return [Vec::new(), items];
     }
-    let grammar = |item: &&Item| !matches!(item.class, Class::Name | Class::Touch | Class::Break);
-    let after = items[n + 1..].iter().take_while(grammar);
-    // "a nail on my desk" is a nail, "drawing with a nail on it" is not.
-    let used = items[..n]
+    let qualities = behind.iter().filter(|item| says(item));
+    [qualities.cloned().collect(), thing.to_vec()]
+}
+
+/// A group without the words of grammar at its ends, those inside that join nothing, and what stands between a quality and
+/// its thing and says nothing of touch: "tacky transparent vinyl".
+fn tidy(mut items: Vec<Item>) -> Vec<Item> {
+    for n in (1..items.len().max(1) - 1).rev() {
+        let dull = items[n].class == Class::Other || is_colour(&items[n].text);
+        let inside = items[n - 1].class == Class::Touch && items[n + 1].class == Class::Name;
+        if dull && inside && !is_adjective(&items[n]) {
+            items.remove(n);
+        }
+    }
+    let says =
+        |item: &Item| is_content(item) || matches!(item.class, Class::Degree | Class::Denial);
+    let opens = |item: &Item| ["between", "without"].contains(&item.text.as_str());
+    let closes = |item: &Item| is_content(item) || item.text == "at all";
+    let Some(first) = items.iter().position(|item| says(item) || opens(item)) else {
+        return Vec::new();
+    };
+    let last = items.iter().rposition(closes).unwrap_or(items.len() - 1);
+    let joins = |item: &Item| item.class == Class::Link && !is_determiner(&item.text);
+    let kept = items.into_iter().take(last + 1).skip(first);
+    kept.filter(|item| says(item) || opens(item) || joins(item))
+        .collect()
+}
+
+/// Words of content that are in a text, and not in what was read of it.
+pub(super) fn left_out(items: &[Item], reading: &Reading) -> Vec<String> {
+    let says = |item: &&Item| is_content(item) || is_colour(&item.text);
+    let gone = items
         .iter()
-        .any(|item| item.class == Class::Act || item.text == "with");
-    let across = after
-        .clone()
-        .any(|item| ACROSS.contains(&item.text.as_str()) && (used || item.text != "on"));
-    let is = after
-        .clone()
-        .any(|item| ["is", "as", "was"].contains(&item.text.as_str()));
-    let mut before = items[..n].iter().rev().take_while(grammar);
-    let with = before.any(|item| item.text == "with");
-    ((across || is) && later(items, n + 1)) || (with && items[..n].iter().any(is_name))
+        .filter(says)
+        .filter(|item| !reading.holds(&item.text));
+    gone.map(|item| item.text.clone()).collect()
 }
 
-/// Degrees and denials stay where a quality, or for a denial a name, follows.
-fn degrees(items: &[Item], kept: &mut [bool]) {
-    for n in (0..items.len()).rev() {
-        let denial = items[n].class == Class::Denial;
-        if !denial && items[n].class != Class::Degree {
-            continue;
-        }
-        const BETWEEN: &[&str] = &[
-            "as", "be", "been", "being", "feel", "feels", "look", "looks", "at all",
-        ];
-        let between = |text: &str| is_determiner(text) || BETWEEN.contains(&text);
-        let mut after = (n + 1..items.len()).filter(|&m| !between(&items[m].text));
-        kept[n] = after
-            .next()
-            .is_some_and(|m| kept[m] && (items[m].class != Class::Name || denial));
-    }
-}
-
-/// Links stay between what stays.
-fn links(items: &[Item], kept: &mut [bool]) {
-    let content: Vec<usize> = (0..items.len()).filter(|n| kept[*n]).collect();
-    for pair in content.windows(2) {
-        let gap = pair[0] + 1..pair[1];
-        // A clause that ended says nothing of what follows it.
-        let broken = items[gap.clone()]
-            .iter()
-            .any(|item| item.class == Class::Break);
-        let others = items[gap.clone()]
-            .iter()
-            .any(|item| item.class == Class::Other);
-        for n in gap {
-            let text = items[n].text.as_str();
-            let joins = ["but", "and"].contains(&text)
-                || (["of", "with", "without"].contains(&text) && !broken);
-            let article = is_counted(text) && kept[n - 1];
-            let link = items[n].class == Class::Link && (joins || !(broken || others));
-            kept[n] = link || article;
-        }
-    }
-    if items.first().is_some_and(|item| item.text == "between") {
-        kept[0] = true;
-    }
-    for n in 0..items.len() {
-        let next = (n + 1..items.len()).find(|m| kept[*m]);
-        if items[n].text == "between" && next.is_some_and(|m| is_name(&items[m])) {
-            kept[n] = true;
-        }
-        if items[n].text == "at all" && n > 0 && kept[n - 1] {
-            kept[n] = true;
-        }
-    }
-}
-
-/// What is left of a prompt that names nothing known: all but what asks.
-fn unnamed(items: &[Item]) -> Reading {
-    let asks = |item: &Item| {
-        matches!(
-            item.class,
-            Class::Function | Class::Act | Class::Link | Class::Break
-        )
-    };
-    let first = items.iter().position(|item| !asks(item));
-    let last = items.iter().rposition(|item| !asks(item));
-    let range = match (first, last) {
-        // Where nothing asks, its article stays, as the encoder learned phrases.
-        (Some(1), Some(last)) if is_determiner(&items[0].text) => 0..last + 1,
-        (Some(first), Some(last)) => first..last + 1,
-        _ => 0..items.len(),
-    };
-    let words = items[range.clone()]
+/// All words of a text but those that ask.
+pub(super) fn whole(items: &[Item]) -> Vec<String> {
+    let said = items
         .iter()
-        .filter(|item| item.class != Class::Break);
-    let mut words: Vec<String> = words.map(|item| item.said.clone()).collect();
-    if words.is_empty() {
-        words = items.iter().map(|item| item.said.clone()).collect();
-        words.retain(|word| !word.is_empty());
-    }
-    // Of a word of no list, the classifier cannot tell "minty" and "barking" from touch by themselves.
-    let listed = |word: &str| {
-        phrase::is_quality(word) || lexicon::is_quality(word) || Grade::of(word).is_some()
+        .filter(|item| !item.said.is_empty() && item.class != Class::Break);
+    said.map(|item| item.said.clone()).collect()
+}
+
+/// What is encoded of a text in which nothing is touched: all words of content.
+pub(super) fn unread(items: &[Item]) -> Vec<String> {
+    let words = |says: fn(&Item) -> bool| -> Vec<String> {
+        let said = items
+            .iter()
+            .filter(|item| says(item) && !item.said.is_empty());
+        said.map(|item| item.said.clone()).collect()
     };
-    let says = |item: &Item| match item.class {
-        Class::Name | Class::Thing => true,
-        Class::Touch => listed(&item.text),
-        // Its distance from what the model knows decides whether it is an object.
-        Class::Other => !is_colour(&item.text),
-        _ => false,
-    };
-    Reading {
-        words,
-        says: items[range].iter().any(says),
-        ..Reading::default()
+    let content = words(is_content);
+    if content.is_empty() {
+        words(|_| true)
+    } else {
+        content
     }
 }

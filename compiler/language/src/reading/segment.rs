@@ -11,7 +11,7 @@ use crate::words::{
     grade::{self, Grade},
 };
 use crate::{
-    lexicon::{self, LONGEST, substance},
+    lexicon::{self, LONGEST},
     phrase,
 };
 
@@ -57,11 +57,15 @@ pub(super) fn is_name(item: &Item) -> bool {
 const DENIALS: &[&str] = &["not", "no", "never", "non", "without", "lacking"];
 const COMPARED: &[&str] = &["more", "less", "least", "most", "too", "half"];
 
-/// Divides the words of a prompt into items. `sense` tells what a word that no list holds says.
-pub(super) fn segment(tokens: &[Token], sense: impl Fn(&str) -> Sense) -> Vec<Item> {
+/// Divides words into items. `context` is what the whole prompt says of its numbers, if it has some, and `sense` what
+/// a word says that no list holds.
+pub(super) fn segment(
+    tokens: &[Token],
+    context: Option<grade::Context>,
+    sense: impl Fn(&str) -> Sense,
+) -> Vec<Item> {
     let mut items = Vec::new();
     let mut at = 0;
-    let context = grade::may_be_in(tokens).then(|| grade::Context::of(tokens));
     while at < tokens.len() {
         if let Some((count, grade)) = context.and_then(|about| grade::read(&tokens[at..], about)) {
             items.push(item(&grade.to_string(), Class::Touch));
@@ -72,7 +76,7 @@ pub(super) fn segment(tokens: &[Token], sense: impl Fn(&str) -> Sense) -> Vec<It
             .iter()
             .map_while(|token| match token {
                 Token::Word(word) => Some(word.as_str()),
-                Token::Break => None,
+                Token::Break(_) => None,
             })
             .take(LONGEST)
             .collect();
@@ -134,11 +138,12 @@ pub(super) fn segment(tokens: &[Token], sense: impl Fn(&str) -> Sense) -> Vec<It
         }
     }
     for n in 1..items.len() {
-        // "nylon brush": at its end a name is no verb.
+        // "nylon brush", "bristly brush": at its end a name is no verb.
         let ends = items
             .get(n + 1)
             .is_none_or(|next| next.class == Class::Break);
-        let noun = items[n].class == Class::Act && ends && substance(&items[n - 1].text).is_some();
+        let before = matches!(items[n - 1].class, Class::Name | Class::Touch);
+        let noun = items[n].class == Class::Act && ends && before;
         if let Some(name) = lexicon::name(&[&items[n].text]).filter(|_| noun) {
             items[n] = Item {
                 said: items[n].said.clone(),
@@ -216,7 +221,9 @@ fn longest(words: &[&str], compared: bool) -> Option<(usize, &'static str)> {
         let alone = count == 1 && (is_function(first) || is_act(first) || degree);
         let whole = !is_determiner(first) && !alone;
         let name = lexicon::name(&words[..count]).filter(|_| whole)?;
-        Some((count, name))
+        // "crisp linen" has no crisps.
+        let other = count == 1 && name != first && phrase::is_quality(first);
+        (!other).then_some((count, name))
     })
 }
 

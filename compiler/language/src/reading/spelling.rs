@@ -78,7 +78,7 @@ fn whole(tokens: &mut Vec<Token>) -> Option<Correction> {
         .iter()
         .map(|token| match token {
             Token::Word(word) => Some(word.as_str()),
-            Token::Break => None,
+            Token::Break(_) => None,
         })
         .collect();
     let words = words.filter(|words| (2..=lexicon::LONGEST).contains(&words.len()))?;

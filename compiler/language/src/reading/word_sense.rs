@@ -23,16 +23,16 @@ const PARTICIPLES: [(&str, f32); 2] = [("ed", -1.8), ("ing", -0.8)];
 
 /// What the table says of a word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) struct Sense {
+pub(crate) struct Sense {
     /// Whether it says how something feels.
-    pub(super) touch: bool,
+    pub(crate) touch: bool,
     /// Whether it names something that can be touched.
-    pub(super) thing: bool,
+    pub(crate) thing: bool,
 }
 
 /// The sense of a word; neither for a word that is not in the table, unless it is a participle, which is
 /// rather of a craft than of talk: "overstuffed", "limescaled".
-pub(super) fn sense(table: &impl WordVectors, word: &str) -> Sense {
+pub(crate) fn sense(table: &impl WordVectors, word: &str) -> Sense {
     let ending = PARTICIPLES
         .iter()
         .find(|(ending, _)| word.len() > 4 && word.ends_with(ending));

@@ -9,8 +9,19 @@ use unicode_normalization::UnicodeNormalization as _;
 pub enum Token {
     /// A lower-case word in British spelling.
     Word(String),
-    /// A comma, a bracket, a full stop, a line.
-    Break,
+    /// A comma, a bracket, a full stop, a line: the first of those that stand together.
+    Break(char),
+}
+
+impl Token {
+    /// The word, unless it is a mark.
+    #[must_use]
+    pub fn word(&self) -> Option<&str> {
+        match self {
+            Self::Word(word) => Some(word),
+            Self::Break(_) => None,
+        }
+    }
 }
 
 /// American spellings, and the British ones that the corpus has.
@@ -51,7 +62,7 @@ pub fn normalise(prompt: &str) -> Vec<Token> {
             for (n, number) in number.split(' ').enumerate() {
                 if n > 0 {
                     end(&mut word, &mut tokens);
-                    tokens.push(Token::Break);
+                    tokens.push(Token::Break(','));
                 }
                 word.push_str(number);
             }
@@ -77,15 +88,15 @@ pub fn normalise(prompt: &str) -> Vec<Token> {
                     character,
                     ',' | ';' | ':' | '.' | '!' | '?' | '(' | ')' | '[' | ']' | '\n' | '–' | '—'
                 );
-                if divides && tokens.last().is_some_and(|last| *last != Token::Break) {
-                    tokens.push(Token::Break);
+                if divides && tokens.last().is_some_and(|last| last.word().is_some()) {
+                    tokens.push(Token::Break(character));
                 }
             }
         }
         before = character;
     }
     end(&mut word, &mut tokens);
-    while tokens.last() == Some(&Token::Break) {
+    while tokens.last().is_some_and(|last| last.word().is_none()) {
         tokens.pop();
     }
     tokens
@@ -272,7 +283,7 @@ mod tests {
     fn words(prompt: &str) -> String {
         let words = normalise(prompt).into_iter().map(|token| match token {
             Token::Word(word) => word,
-            Token::Break => "/".into(),
+            Token::Break(_) => "/".into(),
         });
         words.collect::<Vec<_>>().join(" ")
     }

@@ -36,18 +36,31 @@ impl MiniLm {
     /// # Errors
     /// [`TextError::Tokeniser`] when the vocabulary lacks the marks.
     pub fn tokens(&self, text: &str) -> Result<(Vec<i64>, usize), TextError> {
-        let lacking = |name: &str| TextError::Tokeniser(format!("no {name} in the vocabulary"));
-        let mark = |name: &str| {
-            let id = self.vocabulary.id("", name).ok_or_else(|| lacking(name))?;
-            Ok::<i64, TextError>(id.into())
-        };
-        let mut ids = vec![mark("[CLS]")?];
-        encode(text, &self.vocabulary, &mut ids).ok_or_else(|| lacking("[UNK]"))?;
+        let [start, end] = marks(&self.vocabulary)?;
+        let mut ids = vec![start];
+        ids.extend(pieces(text, &self.vocabulary)?);
         let cut = (ids.len() + 1).saturating_sub(MAX_TOKENS);
         ids.truncate(MAX_TOKENS - 1);
-        ids.push(mark("[SEP]")?);
+        ids.push(end);
         Ok((ids, cut))
     }
+}
+
+fn lacking(name: &str) -> TextError {
+    TextError::Tokeniser(format!("no {name} in the vocabulary"))
+}
+
+/// The ids of the marks before and behind a text.
+pub(super) fn marks(vocabulary: &Vocabulary) -> Result<[i64; 2], TextError> {
+    let mark = |name: &str| vocabulary.id("", name).ok_or_else(|| lacking(name));
+    Ok([mark("[CLS]")?.into(), mark("[SEP]")?.into()])
+}
+
+/// The ids of a text's pieces, without marks.
+pub(super) fn pieces(text: &str, vocabulary: &Vocabulary) -> Result<Vec<i64>, TextError> {
+    let mut ids = Vec::new();
+    encode(text, vocabulary, &mut ids).ok_or_else(|| lacking(UNKNOWN))?;
+    Ok(ids)
 }
 
 impl TextEncoder for MiniLm {

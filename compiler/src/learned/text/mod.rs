@@ -5,10 +5,12 @@
 pub mod clip;
 mod encoder;
 pub mod minilm;
+mod states;
 mod words;
 
 pub use asperity_language::Vocabulary;
 pub use encoder::{Encoded, TextEncoder, TextError};
+pub use states::WordStates;
 pub use words::{WithWords, WordTable};
 
 use std::{path::PathBuf, str::FromStr};

@@ -28,6 +28,9 @@ impl PromptCompiler {
         } else {
             Certainty::Close
         };
+        if !reading.contact {
+            return Certainty::NoContact;
+        }
         if !reading.says {
             return Certainty::Guess;
         }
@@ -39,12 +42,13 @@ impl PromptCompiler {
             Phrase::Part { .. } => Certainty::Known,
             // Of words that lie near anything, what they are changed by says little.
             Phrase::Changed { base, .. } | Phrase::Graded { base, .. } => {
-                self.certainty(&self.read(base), unfamiliar)
+                self.certainty(&self.read_surface(base), unfamiliar)
             }
             composed => {
                 let things = composed.things();
-                let known =
-                    |thing: &&str| self.certainty(&self.read(thing), true) == Certainty::Known;
+                let known = |thing: &&str| {
+                    self.certainty(&self.read_surface(thing), true) == Certainty::Known
+                };
                 if things.iter().all(known) {
                     Certainty::Close
                 } else {

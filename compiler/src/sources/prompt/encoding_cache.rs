@@ -61,7 +61,7 @@ impl PromptCompiler {
             let reading = self.read(prompt);
             let things = reading.phrase.things().into_iter();
             let things = things.filter(|thing| self.things.get(thing).is_none());
-            let things = things.map(|thing| self.read(thing).text());
+            let things = things.map(|thing| self.read_surface(thing).text());
             for text in std::iter::once(reading.text()).chain(things) {
                 if self.cache.read(&text).is_none() && seen.insert(text.clone()) {
                     texts.push(text);

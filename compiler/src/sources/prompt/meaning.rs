@@ -119,7 +119,7 @@ impl PromptCompiler {
     /// The material that a text names; the text may be a phrase itself. Prompts of a library name few of them.
     pub(super) fn thing(&self, text: &str) -> Result<Thing, PromptError> {
         kept(&self.things, text, || {
-            let projection = self.project(text)?;
+            let projection = self.projected(text, self.read_surface(text))?;
             let composed = projection.reading.phrase != Phrase::Plain;
             let (z, wanted) = self.resolve_target(&projection)?;
             self.as_thing(z, wanted, composed)

@@ -13,7 +13,7 @@ use crate::{
         Certainty, Decoded, Files, Latent, LearnedModel, ModelError, embedded,
         friction::Neighbour,
         inference::Backend,
-        text::{TextEncoder, WordTable},
+        text::{TextEncoder, WordStates, WordTable},
         texture,
     },
     pipeline::{Pass, Pipeline, Ringing},
@@ -35,7 +35,7 @@ const KEPT_PROMPT_BYTES: usize = 2048;
 pub struct PromptCompiler {
     pub(super) text: Box<dyn TextEncoder>,
     model: LearnedModel,
-    reader: Reader<WordTable>,
+    reader: Reader<WordTable, WordStates>,
     pub(super) things: Things,
     /// Those that the model knows by name.
     pub(super) known: Things,
@@ -55,7 +55,7 @@ impl PromptCompiler {
             Ok(Self {
                 text,
                 model,
-                reader: Reader::new(embedded::word_table()?),
+                reader: Reader::new(embedded::word_table()?, embedded::word_states()?),
                 things: Things::default(),
                 known: Things::default(),
                 cache: EncodingCache::default(),
@@ -106,13 +106,26 @@ impl PromptCompiler {
         self.reader.read(prompt)
     }
 
+    /// The same of a text that names a surface, and nothing else.
+    pub(super) fn read_surface(&self, text: &str) -> Reading {
+        self.reader.read_surface(text)
+    }
+
     /// The latent of a prompt before a seed moves it.
     ///
     /// # Errors
     /// [`PromptError`] for an empty prompt or a failing network.
     pub fn project(&self, prompt: &str) -> Result<Projection, PromptError> {
         check(prompt)?;
-        let reading = self.read(prompt);
+        self.projected(prompt, self.read(prompt))
+    }
+
+    /// The same of what was read of it.
+    pub(super) fn projected(
+        &self,
+        prompt: &str,
+        reading: Reading,
+    ) -> Result<Projection, PromptError> {
         let read = self.encode(&reading.text())?;
         let (encoded, projected) = (&read.0, &read.1);
         let similarity = projected
@@ -185,7 +198,8 @@ impl PromptCompiler {
             model_crc32: self.model.crc32(),
             latents: Latents::whole(z).shifted(shift),
             history: History {
-                certainty: Some(projection.certainty),
+                // Programs from before there was a level for no contact edit such an asset, too.
+                certainty: Some(projection.certainty.max(Certainty::Guess)),
                 ..History::default()
             },
         };

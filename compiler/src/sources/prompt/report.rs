@@ -1,10 +1,6 @@
 //! The report of a compiled prompt, as text and as JSON.
 
-use super::{
-    CompiledPrompt,
-    reading::{Correction, MOST_WORDS},
-    understood::excerpt,
-};
+use super::{CompiledPrompt, reading::Correction, understood::excerpt};
 use crate::{
     compiled::{Compiled, Findings},
     edit_memory::Axis,
@@ -33,13 +29,18 @@ impl CompiledPrompt {
         let (read, cut) = self.tokens;
         if self.reading.cut > 0 {
             warnings.push(format!(
-                "the prompt is too long: {} words after the first {MOST_WORDS} were not read",
+                "the prompt is too long: its last {} words were not read",
                 self.reading.cut
             ));
         } else if cut > 0 {
             warnings.push(format!(
                 "the prompt is too long for its encoder: {cut} tokens after the first {read} were not read"
             ));
+        }
+        if self.certainty == Certainty::NoContact {
+            warnings.push(
+                "nothing in the prompt is touched: what its words lie near to is compiled".into(),
+            );
         }
         if self.certainty == Certainty::Guess {
             let doubtful = self.reading.correction.as_ref().filter(|c| c.doubtful);
@@ -223,7 +224,7 @@ impl Findings for CompiledPrompt {
             "certainty": self.certainty.share(),
             "certainty_level": self.certainty,
             "similarity": self.similarity,
-            "low_certainty": self.certainty == Certainty::Guess,
+            "low_certainty": self.certainty <= Certainty::Guess,
             "tokens": { "read": read, "cut": cut },
             "taken_as": self.reading.text(),
             "named": self.reading.names,

@@ -185,7 +185,7 @@ fn words(text: &str) -> Vec<String> {
     let tokens = normalise(text).into_iter();
     let words = tokens.filter_map(|token| match token {
         Token::Word(word) => Some(word),
-        Token::Break => None,
+        Token::Break(_) => None,
     });
     words.collect()
 }

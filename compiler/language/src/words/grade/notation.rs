@@ -59,7 +59,7 @@ impl Context {
         let says = |words: &[&str]| {
             tokens.iter().any(|token| match token {
                 Token::Word(word) => words.contains(&word.as_str()),
-                Token::Break => false,
+                Token::Break(_) => false,
             })
         };
         Self {
@@ -69,7 +69,7 @@ impl Context {
             abrasive: tokens.len() == 1
                 || tokens.iter().any(|token| match token {
                     Token::Word(word) => is_abrasive(word) || word == "paper",
-                    Token::Break => false,
+                    Token::Break(_) => false,
                 }),
         }
     }

@@ -30,7 +30,7 @@ impl<'a> Parts<'a> {
                 // A hyphen before a number that comes first is rather a dash: "sandpaper -80 grit".
                 Token::Word(word) if n == 0 => word.trim_start_matches('-'),
                 Token::Word(word) => word.as_str(),
-                Token::Break => "",
+                Token::Break(_) => "",
             };
             loop {
                 let end = run(rest);
