@@ -109,8 +109,8 @@ impl Value<'_> {
 }
 
 impl Portable {
-    /// Computes values that the graph names, in the order of their names, and nothing that no such value needs the
-    /// graph to go on to: the states of a layer cost the layers below it.
+    /// Values that the graph names, in the order of the names. No step behind the last of them runs: the states of a layer
+    /// cost the layers up to it.
     ///
     /// # Errors
     /// As [`Session::run`], and [`RunError::UnknownValue`] for a name that no step of the loaded graph computes: of an

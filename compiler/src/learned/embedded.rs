@@ -41,20 +41,15 @@ pub fn text_encoder(backend: &Backend) -> Result<WithWords<MiniLm>, ModelError> 
     Ok(WithWords::new(sentence, table))
 }
 
-/// States of words in the same encoder, on the portable engine whatever the back end.
-///
-/// # Errors
-/// [`ModelError::Network`] when the engine refuses it.
-pub fn word_states() -> Result<WordStates, ModelError> {
+/// States of words in the same encoder, on the portable engine whatever the back end. It is loaded when the first
+/// sentence is read.
+#[must_use]
+pub fn word_states() -> WordStates {
     static NETWORK: LazyLock<Result<Portable, String>> = LazyLock::new(|| {
         let network = Portable::from_shared(Bytes::from_static(TEXT_ENCODER));
         network.map_err(|error| error.to_string())
     });
-    let network = NETWORK.as_ref().map_err(|message| ModelError::Network {
-        file: "text_encoder.onnx".into(),
-        message: message.clone(),
-    })?;
-    Ok(WordStates::new(network, Vocabulary::new(VOCABULARY)))
+    WordStates::new(&NETWORK, Vocabulary::new(VOCABULARY))
 }
 
 /// The table of words.

@@ -123,7 +123,7 @@ fn modifiers_move_the_right_way_and_are_noticed() {
 }
 
 /// Least share of the modifiers that move the right way.
-const LEAST_RIGHT: f64 = 0.94;
+const LEAST_RIGHT: f64 = 0.97;
 /// Least share that a person notices.
 const LEAST_NOTICED: f64 = 0.95;
 /// Largest share of touchable things that are a guess.

@@ -28,7 +28,7 @@ struct Text {
 fn main() -> Result<(), Box<dyn Error>> {
     let output = std::env::args().nth(1).ok_or("usage: roles OUTPUT")?;
     let texts = texts()?;
-    let states = embedded::word_states()?;
+    let states = embedded::word_states();
     let table = embedded::word_table()?;
     let records: Result<Vec<Vec<u8>>, _> = texts
         .par_iter()

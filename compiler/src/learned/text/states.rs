@@ -3,7 +3,7 @@
 use super::{TextError, Vocabulary, minilm};
 use asperity_language::{roles, words::Token};
 use asperity_nn::{Portable, Tensor};
-use std::ops::Range;
+use std::{ops::Range, sync::LazyLock};
 
 /// The states behind layer 3 of 6 in the embedded encoder's graph.
 const LAYER: &str = "t101";
@@ -15,7 +15,7 @@ const MOST_PIECES: usize = 512;
 /// The embedded encoder on the portable engine, as far as the states of its words.
 #[derive(Clone, Copy)]
 pub struct WordStates {
-    network: &'static Portable,
+    network: &'static LazyLock<Result<Portable, String>>,
     vocabulary: Vocabulary,
 }
 
@@ -29,7 +29,10 @@ impl roles::WordStates for WordStates {
 impl WordStates {
     /// States of an encoder.
     #[must_use]
-    pub fn new(network: &'static Portable, vocabulary: Vocabulary) -> Self {
+    pub fn new(
+        network: &'static LazyLock<Result<Portable, String>>,
+        vocabulary: Vocabulary,
+    ) -> Self {
         Self {
             network,
             vocabulary,
@@ -41,7 +44,9 @@ impl WordStates {
     /// # Errors
     /// [`TextError`] when the vocabulary or the network is not that of the embedded encoder.
     pub fn try_states(&self, tokens: &[Token]) -> Result<Vec<Vec<f32>>, TextError> {
-        let network = |error: asperity_nn::RunError| TextError::Network(error.to_string());
+        let failed = |error: asperity_nn::RunError| TextError::Network(error.to_string());
+        let network = self.network.as_ref();
+        let network = network.map_err(|message| TextError::Network(message.clone()))?;
         let [start, end] = minilm::marks(&self.vocabulary)?;
         let pieces = tokens.iter().map(|token| match token {
             Token::Word(word) => minilm::pieces(word, &self.vocabulary),
@@ -68,7 +73,7 @@ impl WordStates {
             ids.push(end);
             let input = Tensor::i64(&[1, ids.len()], ids);
             let inputs = [("input_ids", &input)];
-            let layer = self.network.values(&inputs, &[LAYER]).map_err(network)?;
+            let layer = network.values(&inputs, &[LAYER]).map_err(failed)?;
             let rows = layer.first().and_then(Tensor::as_f32).unwrap_or_default();
             states.extend(spans.iter().map(|span| mean(rows, span)));
             at += spans.len();
@@ -93,10 +98,10 @@ mod tests {
     use crate::learned::embedded;
     use asperity_language::words::normalise;
 
-    /// Claim: every token has a state of each layer, whatever stands in a window after it, up to the limit.
+    /// Claim: every token has a state, up to the limit.
     #[test]
     fn tokens_have_states_up_to_the_limit() {
-        let states = embedded::word_states().expect("the encoder");
+        let states = embedded::word_states();
         let few = normalise("wet gravel, and moss");
         let read = states.try_states(&few).expect("states");
         assert_eq!(read.len(), few.len());

@@ -55,7 +55,7 @@ impl PromptCompiler {
             Ok(Self {
                 text,
                 model,
-                reader: Reader::new(embedded::word_table()?, embedded::word_states()?),
+                reader: Reader::new(embedded::word_table()?, embedded::word_states()),
                 things: Things::default(),
                 known: Things::default(),
                 cache: EncodingCache::default(),
