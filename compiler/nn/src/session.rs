@@ -76,6 +76,20 @@ pub trait Session: Send + Sync {
     fn run(&self, inputs: &[(&str, &Tensor)]) -> Result<Vec<(String, Tensor)>, RunError>;
 }
 
+impl<S: Session + ?Sized> Session for &S {
+    fn inputs(&self) -> &[Port] {
+        (**self).inputs()
+    }
+
+    fn outputs(&self) -> &[Port] {
+        (**self).outputs()
+    }
+
+    fn run(&self, inputs: &[(&str, &Tensor)]) -> Result<Vec<(String, Tensor)>, RunError> {
+        (**self).run(inputs)
+    }
+}
+
 /// Why a run failed.
 #[derive(Debug, Error)]
 #[non_exhaustive]

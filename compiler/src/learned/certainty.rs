@@ -21,15 +21,15 @@ pub enum Certainty {
 }
 
 impl Certainty {
-    /// The share of comparisons with such prompts that came out as a person rated them, 0..=1
-    /// (`docs/words.md`; `compiler/tests/prompts/certainty.rs` measures it). Of what is
-    /// not touched, it is that of a guess.
+    /// The share of unseen sentences of this level that feel like what is touched in them, 0..=1 (`docs/words.md`;
+    /// `compiler/tests/prompts/sentences.rs` measures it).
     #[must_use]
     pub const fn share(self) -> f64 {
         match self {
-            Self::Known => 0.97,
-            Self::Close => 0.91,
-            Self::Guess | Self::NoContact => 0.75,
+            Self::Known => 0.80,
+            Self::Close => 0.60,
+            Self::Guess => 0.34,
+            Self::NoContact => 0.0,
         }
     }
 }

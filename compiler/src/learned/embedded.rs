@@ -9,7 +9,7 @@ use asperity_model::{
     AR_DECODER, DESCRIPTION, ENCODER, MODEL_CRC32, TAP_DECODER, TEXT_ENCODER, TEXT_PROJECTION,
     VOCABULARY, WORD_ROWS, WORD_VECTORS, WORD_WIDTH,
 };
-use asperity_nn::{Bytes, Portable};
+use asperity_nn::{Bytes, Portable, Session};
 use std::sync::LazyLock;
 
 /// The files of the shipped model.
@@ -30,26 +30,33 @@ pub fn model() -> Files {
 /// # Errors
 /// [`ModelError::Network`] when the back end refuses it.
 pub fn text_encoder(backend: &Backend) -> Result<WithWords<MiniLm>, ModelError> {
-    let session = backend
-        .session(TEXT_ENCODER.into())
-        .map_err(|message| ModelError::Network {
-            file: "text_encoder.onnx".into(),
-            message,
-        })?;
+    let session = match backend {
+        Backend::Portable => portable().map(|network| Box::new(network) as Box<dyn Session>),
+        Backend::OnnxRuntime => backend.session(TEXT_ENCODER.into()),
+    };
+    let session = session.map_err(|message| ModelError::Network {
+        file: "text_encoder.onnx".into(),
+        message,
+    })?;
     let table = word_table()?;
     let sentence = MiniLm::new(session, Vocabulary::new(VOCABULARY));
     Ok(WithWords::new(sentence, table))
+}
+
+/// The encoder on the portable engine, loaded once.
+fn portable() -> Result<&'static Portable, String> {
+    static NETWORK: LazyLock<Result<Portable, String>> = LazyLock::new(|| {
+        let network = Portable::from_shared(Bytes::from_static(TEXT_ENCODER));
+        network.map_err(|error| error.to_string())
+    });
+    NETWORK.as_ref().map_err(Clone::clone)
 }
 
 /// States of words in the same encoder, on the portable engine whatever the back end. It is loaded when the first
 /// sentence is read.
 #[must_use]
 pub fn word_states() -> WordStates {
-    static NETWORK: LazyLock<Result<Portable, String>> = LazyLock::new(|| {
-        let network = Portable::from_shared(Bytes::from_static(TEXT_ENCODER));
-        network.map_err(|error| error.to_string())
-    });
-    WordStates::new(&NETWORK, Vocabulary::new(VOCABULARY))
+    WordStates::new(portable, Vocabulary::new(VOCABULARY))
 }
 
 /// The table of words.

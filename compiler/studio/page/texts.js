@@ -54,7 +54,7 @@ export const texts = {
       no_contact: "Nothing in the prompt is touched. Name a surface, or try one of the nearest materials.",
       guess: "The prompt is far from everything the model knows. Try one of the nearest materials.",
     },
-    share: (share) => `${number(100 * share, 0)} % of prompt pairs at this level come out in the order a person rated them.`,
+    share: (share) => `${number(100 * share, 0)} % of sentences at this level feel like what they say is touched.`,
   },
 
   nearest: {

@@ -2,17 +2,12 @@
 
 use super::PROMPTS;
 use asperity::{attributes, learned::Certainty};
-use asperity_tests::{
-    figures,
-    size::{Size, sized},
-};
+use asperity_tests::{figures, size::sized};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// A person who tells two things apart rates them further apart, on scales of 0 to 100.
 const APART: f64 = 20.0;
-/// The share that reports state is no further from the measured one.
-const CALIBRATED: f64 = 0.03;
 
 /// A phrase, how sure it is, what was rated and what came out: rough, slippery, hard.
 type Rated = (String, Certainty, [f64; 3], [f64; 3]);
@@ -84,13 +79,4 @@ fn what_is_known_comes_out_right_more_often_than_a_guess() {
         "-p asperity --test it certainty",
         [("table", head.to_owned() + &lines.concat())],
     );
-    if Size::asked() == Size::Full {
-        for (level, share) in table {
-            let share = share[0] as f64 / share[1] as f64;
-            assert!(
-                (level.share() - share).abs() <= CALIBRATED,
-                "{level}: {share}"
-            );
-        }
-    }
 }

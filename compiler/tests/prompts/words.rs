@@ -224,7 +224,7 @@ fn what_no_surface_is_like_is_told_apart_and_still_safe() {
         .compile("the quarterly inflation report of a central bank", &plain())
         .unwrap();
     let near = PROMPTS.compile("coarse sandpaper", &plain()).unwrap();
-    assert_eq!(far.certainty, Some(Certainty::Guess));
+    assert_eq!(far.certainty, Some(Certainty::NoContact));
     assert_eq!(near.certainty, Some(Certainty::Known));
     assert!(far.json()["low_certainty"] == Json::Bool(true));
 }

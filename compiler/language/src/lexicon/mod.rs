@@ -1,12 +1,14 @@
 //! What the reader and the grammar both know of things: their names, what they are made of, and which parts
 //! of them are things of their own.
 
+pub(crate) mod closed_class;
 mod names;
 
 pub(crate) use names::{LONGEST, is_quality, keys, name, vocabulary};
 pub use names::{in_one_word, key, names, qualities};
 
 use crate::{Vocabulary, words::singular};
+use closed_class::{is_colour, is_grammar};
 
 /// What things are made of: lines `word TAB substance`, sorted; the substance is left out where it is the
 /// word.
@@ -21,6 +23,29 @@ const OWN_PARTS: &[&str] = &[
 #[must_use]
 pub fn is_name(text: &str) -> bool {
     name(&text.split(' ').collect::<Vec<_>>()).is_some()
+}
+
+/// The longest name that words begin with, of those that are `taken`, and how many words it has. In "violet wool" the
+/// first is a colour.
+pub(crate) fn longest(
+    words: &[&str],
+    taken: impl Fn(usize, &str) -> bool,
+) -> Option<(usize, &'static str)> {
+    let coloured = |count: usize| {
+        let next = words.get(1).is_some_and(|next| !is_grammar(next));
+        count == 1 && next && is_colour(words[0])
+    };
+    (1..=words.len().min(LONGEST)).rev().find_map(|count| {
+        let name = name(&words[..count]).filter(|name| taken(count, name))?;
+        (!coloured(count)).then_some((count, name))
+    })
+}
+
+/// Whether a word is an adjective by its form: "ribbed", and "frosty" beside "frost".
+pub(crate) fn is_adjectival(word: &str) -> bool {
+    let participle = word.len() > 5 && word.ends_with("ed");
+    let of_noun = |stem: &str| stem.len() > 2 && (is_name(stem) || is_name(&format!("{stem}e")));
+    (participle && !word.ends_with("eed")) || word.strip_suffix('y').is_some_and(of_noun)
 }
 
 /// The substance that a word names.

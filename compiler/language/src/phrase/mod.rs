@@ -20,13 +20,13 @@ mod parse;
 mod quality;
 mod relative;
 mod table;
-mod words;
 
 use crate::words::grade::Grade;
 
 pub use parse::{is_cover, parse};
 pub use quality::{is_adjective, is_degree, is_lasting, is_quality};
 pub use relative::{Relative, Towards, relative};
+pub(crate) use table::is_noun;
 pub use table::quality_words;
 
 /// How far one attribute is to go from that of the base, in steps, of which half a one is noticed.

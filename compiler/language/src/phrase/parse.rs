@@ -1,12 +1,11 @@
 //! A prompt into what it is about and what changes it.
 
-use crate::words::grade::Grade;
+use crate::{lexicon::closed_class::is, words::grade::Grade};
 
 use super::{
     Phrase, compound,
     quality::{self, Use},
     table,
-    words::EMPTY,
 };
 
 /// Divides the words of a prompt. A name of several words is one of them, so that none of its own
@@ -24,7 +23,7 @@ pub fn parse(words: &[String]) -> Phrase {
 
 /// A text of words that name something; `None` where nothing is named.
 fn thing(words: &[String]) -> Option<String> {
-    let named = |word: &&String| !EMPTY.contains(&word.as_str());
+    let named = |word: &&String| !is(word, &["empty"]);
     words.iter().find(named)?;
     Some(words.join(" "))
 }
@@ -133,13 +132,13 @@ fn tidy(mut base: Vec<String>) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{
-        super::{Change, words::words},
-        *,
-    };
+    use super::{super::Change, *};
+    use crate::words::normalise;
 
     fn parse(prompt: &str) -> Phrase {
-        super::parse(&words(prompt))
+        let tokens = normalise(prompt).into_iter();
+        let words = tokens.filter_map(|token| token.word().map(str::to_owned));
+        super::parse(&words.collect::<Vec<_>>())
     }
 
     /// The base, and where rough, slippery and hard go.

@@ -1,9 +1,10 @@
 //! Qualities in a text: "very rough", "not at all slippery", "without its grit", "more grip".
 
+use crate::lexicon::closed_class::is;
+
 use super::{
     Change, Changes,
     table::{self, LITTLE, NOT, NOT_AT_ALL, NOT_VERY, PLAIN, Range, Signs, VERY},
-    words::EMPTY,
 };
 
 /// What a text is about.
@@ -110,11 +111,12 @@ fn quality(words: &[String], at: usize, about: Use) -> Option<Found> {
             "a" if range == LITTLE => {}
             "being" | "be" if before > 0 && words[before - 1] == "without" => {}
             "without" => denied = true,
-            // "not as rough", "twice as rough", "half as rough"
-            "as" if before > 0
-                && ["not", "twice", "half"].contains(&words[before - 1].as_str()) =>
+            // "as rough as bark", "not as rough", "twice as rough", "half as rough"
+            "as" if words.get(to).is_some_and(|word| word == "as")
+                || (before > 0
+                    && ["not", "twice", "half"].contains(&words[before - 1].as_str())) =>
             {
-                if words[before - 1] == "not" {
+                if before == 0 || !["twice", "half"].contains(&words[before - 1].as_str()) {
                     range = VERY;
                 }
             }
@@ -147,6 +149,15 @@ fn quality(words: &[String], at: usize, about: Use) -> Option<Found> {
     if compared && next(to) == Some("than") {
         // "a rougher cloth than X": what is compared with follows.
         to += 1;
+    }
+    // "stone as soft as a pillow" is no pillow.
+    let named = |word: &String| !is(word, &["empty"]) && word != "yet" && word != "but";
+    if next(to) == Some("as") && from < at && words[..from].iter().any(named) {
+        let ends = |word: &String| ["and", "but", "with", "yet"].contains(&word.as_str());
+        to = words[to..]
+            .iter()
+            .position(ends)
+            .map_or(words.len(), |n| to + n);
     }
     let found = Found {
         signs,
@@ -199,7 +210,7 @@ fn lacked(words: &[String], at: usize, about: Use) -> Option<Found> {
     let mut to = at + 1;
     // "without its grit", "without so much grip"
     while words.get(to).is_some_and(|word| {
-        EMPTY.contains(&word.as_str()) || (about == Use::Edit && table::degree(word).is_some())
+        is(word, &["empty"]) || (about == Use::Edit && table::degree(word).is_some())
     }) {
         to += 1;
     }
@@ -215,8 +226,11 @@ fn lacked(words: &[String], at: usize, about: Use) -> Option<Found> {
 
 /// "more grip", "a bit less friction"; of an edit also "add some grit", "reduce the roughness".
 fn directed(words: &[String], at: usize, about: Use) -> Option<Found> {
+    // "iron with rust"
+    let has = words[at] == "with" && about == Use::Thing;
     let up = match table::direction(&words[at], about == Use::Edit) {
         Some(up) => up,
+        None if has => true,
         None => return turned(words, at, about),
     };
     let mut to = at + 1;

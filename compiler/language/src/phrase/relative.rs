@@ -4,7 +4,10 @@ use super::{
     Changes,
     quality::{self, Use},
     table,
-    words::words,
+};
+use crate::{
+    lexicon::closed_class::is,
+    words::{Token, normalise},
 };
 
 /// What an edit asks for.
@@ -37,125 +40,21 @@ impl Relative {
 
 /// Shares of the way to a material: with a weak degree, without a degree, with a strong one.
 const SHARE: (f64, f64, f64) = (0.25, 0.5, 0.75);
-/// Words that an edit may have without asking for anything.
-const FILLERS: [&str; 106] = [
-    "make",
-    "made",
-    "it",
-    "its",
-    "it's",
-    "the",
-    "a",
-    "an",
-    "this",
-    "that",
-    "texture",
-    "surface",
-    "feel",
-    "feels",
-    "feeling",
-    "please",
-    "should",
-    "be",
-    "is",
-    "are",
-    "was",
-    "and",
-    "but",
-    "also",
-    "then",
-    "with",
-    "of",
-    "to",
-    "i",
-    "want",
-    "would",
-    "like",
-    "need",
-    "needs",
-    "bit",
-    "little",
-    "more",
-    "less",
-    "much",
-    "slightly",
-    "just",
-    "only",
-    "so",
-    "very",
-    "in",
-    "on",
-    "by",
-    "some",
-    "out",
-    "get",
-    "rid",
-    "something",
-    "overall",
-    "even",
-    "still",
-    "than",
-    "as",
-    "now",
-    "way",
-    "if",
-    "though",
-    "ever",
-    "down",
-    "up",
-    "had",
-    "been",
-    "take",
-    "dial",
-    "turn",
-    "tone",
-    "crank",
-    "bump",
-    "give",
-    "finish",
-    "could",
-    "can",
-    "you",
-    "let",
-    "were",
-    "good",
-    "deal",
-    "i'd",
-    "prefer",
-    "tiny",
-    "whole",
-    "when",
-    "while",
-    "sliding",
-    "tapping",
-    "sound",
-    "half",
-    "bring",
-    "keep",
-    "too",
-    "quite",
-    "not",
-    "no",
-    "any",
-    "all",
-    "at",
-    "for",
-    "me",
-    "what",
-    "think",
-    "we",
-    "us",
-];
-
 /// Reads an edit.
 #[must_use]
 pub fn relative(text: &str) -> Relative {
     // "more like silk, firmer": the material ends at a comma.
-    let words = words(&text.replace([',', ';'], " and "));
+    let words: Vec<String> = normalise(text)
+        .into_iter()
+        .map(|token| match token {
+            Token::Word(word) => word,
+            Token::Break(_) => "and".into(),
+        })
+        .collect();
     let (head, towards) = towards(&words);
     let (changes, rest) =
         quality::divide(&head, Use::Edit).unwrap_or_else(|| (Changes::default(), head.clone()));
-    let says = |word: &String| !FILLERS.contains(&word.as_str()) && table::degree(word).is_none();
+    let says = |word: &String| !is(word, &["filler"]) && table::degree(word).is_none();
     Relative {
         changes,
         towards,

@@ -1,5 +1,6 @@
 //! Words that change how a material feels.
 
+use crate::lexicon::closed_class::is;
 use std::{collections::HashMap, sync::LazyLock};
 
 /// Lines `word TAB rough TAB slippery TAB hard`, each −1, 0 or 1; sorted by bytes.
@@ -60,25 +61,9 @@ pub(super) fn edit_noun(word: &str) -> Option<Signs> {
 pub(super) fn direction(word: &str, edit: bool) -> Option<bool> {
     const MORE: [&str; 4] = ["more", "extra", "added", "additional"];
     const LESS: [&str; 2] = ["less", "fewer"];
-    const RAISE: [&str; 9] = [
-        "add",
-        "increase",
-        "increased",
-        "raise",
-        "boost",
-        "strengthen",
-        "higher",
-        "up",
-        "double",
-    ];
-    const LOWER: [&str; 20] = [
-        "reduce", "reduced", "decrease", "lower", "remove", "cut", "drop", "lose", "weaken",
-        "take", "tame", "kill", "soften", "ease", "minimise", "minimize", "down", "halve", "away",
-        "rid",
-    ];
-    if MORE.contains(&word) || (edit && RAISE.contains(&word)) {
+    if MORE.contains(&word) || (edit && is(word, &["raise"])) {
         Some(true)
-    } else if LESS.contains(&word) || (edit && LOWER.contains(&word)) {
+    } else if LESS.contains(&word) || (edit && is(word, &["lower"])) {
         Some(false)
     } else {
         None
@@ -101,9 +86,17 @@ pub(super) fn compared(word: &str, adjective: impl Fn(&str) -> Option<Signs>) ->
         })
 }
 
-/// The signs of a quality's noun.
+/// The signs of a quality's noun: of a list, or "roughness", "scratchiness".
 pub(super) fn noun(word: &str) -> Option<Signs> {
-    NOUNS.get(word).copied()
+    let stem = || word.strip_suffix("ness");
+    let y = || adjective(&format!("{}y", stem()?.strip_suffix('i')?));
+    let own = NOUNS.get(word).copied();
+    own.or_else(|| adjective(stem()?)).or_else(y)
+}
+
+/// Whether a word is the noun of a quality: "grit", "roughness".
+pub(crate) fn is_noun(word: &str) -> bool {
+    noun(word).is_some()
 }
 
 /// How far a degree goes: least and most steps.
@@ -122,85 +115,18 @@ pub(super) const NOT: Range = (-1.3, -1.0);
 /// Denied with stress.
 pub(super) const NOT_AT_ALL: Range = (-2.0, -1.7);
 
-/// Words of degree. Ranges do not meet, so that one more degree is felt.
-const DEGREES: [(&[&str], Range); 5] = [
-    (&["hardly", "barely", "scarcely"], (-0.3, -0.1)),
-    (
-        &[
-            "slightly",
-            "mildly",
-            "faintly",
-            "little",
-            "bit",
-            "touch",
-            "somewhat",
-            "tad",
-            "marginally",
-            "smidge",
-            "shade",
-            "gently",
-        ],
-        LITTLE,
-    ),
-    (
-        &[
-            "fairly",
-            "rather",
-            "quite",
-            "moderately",
-            "nearly",
-            "almost",
-            "reasonably",
-        ],
-        (0.65, 0.75),
-    ),
-    (
-        &[
-            "very",
-            "really",
-            "so",
-            "too",
-            "much",
-            "highly",
-            "badly",
-            "truly",
-            "far",
-            "lot",
-            "lots",
-            "way",
-            "considerably",
-            "significantly",
-            "substantially",
-            "noticeably",
-            "twice",
-            "particularly",
-        ],
-        VERY,
-    ),
-    (
-        &[
-            "extremely",
-            "incredibly",
-            "exceptionally",
-            "unbearably",
-            "perfectly",
-            "utterly",
-            "extraordinarily",
-            "super",
-            "ultra",
-            "terribly",
-            "absolutely",
-            "completely",
-            "intensely",
-            "rock",
-        ],
-        (2.95, 3.6),
-    ),
+/// Words of degree, by their class. Ranges do not meet, so that one more degree is felt.
+const DEGREES: [(&str, Range); 5] = [
+    ("hardly", (-0.3, -0.1)),
+    ("little", LITTLE),
+    ("fairly", (0.65, 0.75)),
+    ("very", VERY),
+    ("extremely", (2.95, 3.6)),
 ];
 
 /// The range of a word of degree.
 pub(super) fn degree(word: &str) -> Option<Range> {
-    let found = DEGREES.iter().find(|(words, _)| words.contains(&word));
+    let found = DEGREES.iter().find(|(class, _)| is(word, &[class]));
     found.map(|(_, range)| *range)
 }
 

@@ -1,10 +1,8 @@
 //! Short descriptions of what no name says: "a manhole lid in a downpour". They are encoded as a whole, since what stands
 //! behind the thing changes it.
 
-use super::{
-    closed_class::{is_colour, is_covering, is_place},
-    segment::{Class, Item},
-};
+use super::segment::{Class, Item};
+use crate::lexicon::closed_class::{is_colour, is_covering, is_place};
 
 /// Whether a text describes one thing, and no part of it alone says what is touched.
 pub(super) fn is_whole(items: &[Item]) -> bool {

@@ -1,7 +1,7 @@
 //! Words about pictures and about materials of computer graphics, as prompts for those have them: "seamless",
 //! "roughness map", "soft light", "--ar 16:9". They say nothing about touch, even where one of them does by itself.
 
-use super::closed_class::{is_colour, is_function};
+use crate::lexicon::closed_class::{is_colour, is_function};
 use crate::{
     Vocabulary, lexicon, phrase,
     words::{
@@ -157,9 +157,7 @@ fn is_map(words: &str) -> bool {
 fn named(tokens: &[Token]) -> Option<usize> {
     let words = tokens.iter().map_while(|token| word(Some(token)));
     let words: Vec<&str> = words.take(lexicon::LONGEST).collect();
-    (1..=words.len())
-        .rev()
-        .find(|count| lexicon::name(&words[..*count]).is_some())
+    lexicon::longest(&words, |_, _| true).map(|(count, _)| count)
 }
 
 fn word(token: Option<&Token>) -> Option<&str> {

@@ -25,32 +25,34 @@
 //! assert!(!reader.read("I walked over granite").says);
 //! ```
 
-mod closed_class;
+mod contact;
 mod description;
 mod explained;
 mod graphics;
+mod group;
 mod parts;
 mod read;
 mod segment;
 mod spelling;
 pub(crate) mod word_sense;
 
-use read::{Group, is_bare, one_thing, phrase_of};
+use group::{Group, phrase_of};
+use read::is_bare;
 use segment::{Class, Item};
 
+pub use crate::lexicon::closed_class::{is_colour, is_grammar};
 pub use crate::lexicon::{in_one_word, key};
 pub use crate::roles::Role;
 pub use crate::words::{Token, normalise, shown};
-pub use closed_class::{is_colour, is_grammar};
 pub use explained::Taken;
 pub use spelling::Correction;
 
 use std::borrow::Cow;
 
 use crate::{
-    WordVectors, lexicon,
+    WordVectors,
     phrase::{self, Phrase},
-    roles::{Flags, NAME, NAME_END, TOUCH, WordStates, flags, tag},
+    roles::WordStates,
     words::{
         grade::{self, Grade, Note},
         singular, without_accents,
@@ -59,14 +61,11 @@ use crate::{
 
 /// What tells two readers apart: the CRC-32 of what is read of the prompts in `training/corpora/evaluation/`, and
 /// of their grammar, which the test `judged::the_version_of_the_reader_follows_what_it_reads` computes.
-pub const VERSION: &str = "66d655c9";
+pub const VERSION: &str = "f906f2f2";
 
 /// Words of a prompt that are read: several times what an encoder reads of them.
 pub const MOST_WORDS: usize = 1024;
-/// Words before a colour that are a part of it.
-const SHADES: &[&str] = &["burnt", "dusty", "mossy", "rusty", "smoky"];
-/// Words after which a quality is not there.
-const DENIALS: &[&str] = &["lacks", "lost", "not", "without"];
+
 /// Words of a description that is encoded as a whole.
 const MOST_DESCRIBED: usize = 10;
 
@@ -88,6 +87,9 @@ pub struct Reading {
     pub phrase: Phrase,
     /// Whether anything is touched in it.
     pub contact: bool,
+    /// How sure that is, 0..=1: the least probability with which a word of content is felt, or is not. 1 where tables alone
+    /// say what it is.
+    pub sure: f32,
     /// Whether anything that is left names something, or says how it feels.
     pub says: bool,
     /// Words that were left out because they say nothing of touch.
@@ -133,58 +135,31 @@ impl<T: WordVectors, S: WordStates> Reader<T, S> {
     pub fn read(&self, prompt: &str) -> Reading {
         let mut text = Text::new(prompt, &self.table);
         let items = text.items(&self.table);
-        if is_bare(&items) {
-            return self.surface(text, &items);
+        // "gravel idk", "gravel 2048x2048": beside a name, what nobody knows says nothing, unless most words are foreign.
+        let has = |class: Class| items.iter().any(|item| item.class == class);
+        let known = items.iter().filter(|item| self.knows(item));
+        let mut known: Vec<Item> = known.cloned().collect();
+        if !has(Class::Name) || has(Class::Denial) || known.len() * 3 < items.len() {
+            known.clone_from(&items);
         }
-        // "gravel idk", "gravel 2048x2048": beside a name, what nobody knows says nothing.
-        let unknown = |item: &Item| {
-            let has = |kind: fn(&u8) -> bool| item.text.bytes().any(|byte| kind(&byte));
-            let code = has(u8::is_ascii_digit) && has(u8::is_ascii_alphabetic);
-            item.class == Class::Other && (code || !spelling::is_known(&item.text, &self.table))
-        };
-        let known: Vec<Item> = items
-            .iter()
-            .filter(|item| !unknown(item))
-            .cloned()
-            .collect();
-        let has = |class: Class| known.iter().any(|item| item.class == class);
-        if has(Class::Name) && !has(Class::Denial) && is_bare(&known) {
-            let reading = self.surface(text, &known);
-            let gone = items.iter().filter(|item| unknown(item));
-            let gone = gone.map(|item| item.text.clone());
-            return Reading {
-                ignored: reading.ignored.iter().cloned().chain(gone).collect(),
-                ..reading
-            };
+        if is_bare(&known) {
+            return self.surface(text, &known, &items);
         }
-        if items.len() <= MOST_DESCRIBED && description::is_whole(&items) {
-            let reading = Reading {
-                words: read::whole(&items),
-                contact: true,
-                says: true,
-                ..Reading::default()
-            };
-            return text.finished(reading, &items);
+        let (mut reading, read) = self.contact(&text, &items);
+        // "the untidy welds on a farm gate": what no name says, all of its words say.
+        // "hair band": two words with a name name something.
+        if !reading.contact && items.len() == 2 && has(Class::Name) {
+            reading.contact = true;
+            reading.says = self.knows_all(&text.tokens);
         }
-        let (said, others, read) = self.contact(&text);
+        let asks = |item: &Item| item.class == Class::Act || read::is_person(&item.text);
+        let unnamed = reading.names.is_empty() && items.len() > read::FEW;
+        let described = (unnamed && !items.iter().any(asks)) || description::is_whole(&items);
+        if reading.contact && items.len() <= MOST_DESCRIBED && described {
+            reading.words = read::whole(&items);
+        }
         let unread = text.tokens.iter().skip(read);
         text.cut += unread.filter(|token| token.word().is_some()).count();
-        let (words, names) = if said.is_empty() {
-            (read::unread(&items), Vec::new())
-        } else {
-            let read = self.read_surface(&said.join(" "));
-            (read.words, read.names)
-        };
-        // Where nothing is named, a word that no one knows may say anything.
-        let says = !names.is_empty() || (!said.is_empty() && self.knows_all(&text.tokens));
-        let reading = Reading {
-            contact: !said.is_empty(),
-            words,
-            names,
-            says,
-            others,
-            ..Reading::default()
-        };
         text.finished(reading, &items)
     }
 
@@ -193,24 +168,18 @@ impl<T: WordVectors, S: WordStates> Reader<T, S> {
     pub fn read_surface(&self, text: &str) -> Reading {
         let text = Text::new(text, &self.table);
         let items = text.items(&self.table);
-        self.surface(text, &items)
+        self.surface(text, &items, &items)
     }
 
-    fn surface(&self, text: Text<'_>, items: &[Item]) -> Reading {
-        let clauses = items.split(|item| item.class == Class::Break);
+    /// What the `known` of a text's items name.
+    fn surface(&self, text: Text<'_>, known: &[Item], items: &[Item]) -> Reading {
+        let clauses = known.split(|item| item.class == Class::Break);
         let items_of = clauses.map(<[Item]>::to_vec);
-        let groups = items_of.map(|items| Group {
-            items,
-            surface: 1.0,
-        });
-        // Together they may be another name: "copper, polished".
-        let words = phrase_of(groups.collect());
-        let together = text.segment(&normalise(&words.join(" ")), &self.table);
-        let names = together.iter().filter(|item| item.class == Class::Name);
-        let names: Vec<String> = names.map(|item| item.text.clone()).collect();
-        let words: Vec<String> = together.into_iter().map(|item| item.text).collect();
+        let groups = items_of.map(|items| Group::new(items, 1.0));
+        let (words, names) = self.named(&text, &phrase_of(groups.collect()));
         let reading = Reading {
             contact: !words.is_empty(),
+            sure: 1.0,
             says: !names.is_empty() || (!words.is_empty() && self.knows_all(&text.tokens)),
             names,
             words,
@@ -218,77 +187,24 @@ impl<T: WordVectors, S: WordStates> Reader<T, S> {
         };
         text.finished(reading, items)
     }
-
-    /// What a sentence says is touched, its words of other roles, and how many tokens of it were read.
-    fn contact(&self, text: &Text<'_>) -> (Vec<String>, Vec<(Role, String)>, usize) {
-        let Text {
-            tokens, context, ..
-        } = text;
-        let flags = flags(tokens, &self.table);
-        let mut tagged = tag(&self.states.states(tokens), &flags);
-        // A number on a scale is of the surface beside it.
-        let mut at = 0;
-        while at < tagged.len() {
-            let graded = context.and_then(|about| grade::read(&tokens[at..], about));
-            let count = graded.map_or(0, |(count, _)| count);
-            let ends = at.saturating_sub(1)..(at + count + 1).min(tagged.len());
-            if count > 0 && tagged[ends].iter().any(|(role, _)| *role == Role::Surface) {
-                tagged[at..at + count].fill((Role::Surface, 1.0));
-            }
-            at += count.max(1);
-        }
-        names(&flags, &mut tagged);
-        attributes(tokens, &flags, &mut tagged);
-        // "dusty pink": a shade.
-        for n in 1..tagged.len() {
-            let words = [tokens[n - 1].word(), tokens[n].word()];
-            if let [Some(shade), Some(colour)] = words
-                && SHADES.contains(&shade)
-                && is_colour(colour)
-            {
-                tagged[n - 1] = (Role::Context, 0.0);
-            }
-        }
-        // "a pot which does not feel gritty"
-        for n in 0..tagged.len() {
-            let denies = tokens[n].word().is_some_and(|word| DENIALS.contains(&word));
-            let says = |m: &usize| tokens[*m].word().is_some_and(|word| !is_grammar(word));
-            if let Some(m) = (n + 1..tagged.len()).find(says).filter(|_| denies)
-                && tagged[m].0 == Role::Context
-            {
-                tagged[m].0 = Role::Denied;
-            }
-        }
-        let tokens: Vec<(&Token, (Role, f32))> = tokens.iter().zip(tagged).collect();
-        let (mut groups, mut denied, mut others) = (Vec::new(), Vec::new(), Vec::new());
-        for span in tokens.chunk_by(|a, b| a.1.0 == b.1.0) {
-            let role = span[0].1.0;
-            let words: Vec<Token> = span.iter().map(|(token, _)| (*token).clone()).collect();
-            if role == Role::Surface {
-                let surface = span.iter().map(|(_, (_, surface))| surface).sum::<f32>();
-                groups.push(Group {
-                    items: text.segment(&words, &self.table),
-                    surface: surface / span.len() as f32,
-                });
-            } else if role != Role::Context {
-                let said: Vec<&str> = words.iter().filter_map(Token::word).collect();
-                others.push((role, said.join(" ")));
-                if role == Role::Denied {
-                    denied.extend(text.segment(&words, &self.table));
-                }
-            }
-        }
-        // "bark without its roughness"; but "not soft, scratchy" is scratchy.
-        let is_quality = |item: &Item| item.class == Class::Touch || phrase::is_quality(&item.text);
-        if !groups.iter().flat_map(|group| &group.items).any(is_quality) {
-            let denied = denied.into_iter().filter(is_quality);
-            groups.extend(denied.map(Group::denied));
-        }
-        (phrase_of(one_thing(groups)), others, tokens.len())
-    }
 }
 
 impl<T: WordVectors, S> Reader<T, S> {
+    /// Words of a phrase, and the names among them: together they may be another one, as in "copper, polished".
+    fn named(&self, text: &Text<'_>, phrase: &[String]) -> (Vec<String>, Vec<String>) {
+        let items = text.segment(&normalise(&phrase.join(" ")), &self.table);
+        let names = items.iter().filter(|item| item.class == Class::Name);
+        let names = names.map(|item| item.text.clone()).collect();
+        (items.into_iter().map(|item| item.text).collect(), names)
+    }
+
+    /// Whether an item is of a list, or English and no code.
+    fn knows(&self, item: &Item) -> bool {
+        let has = |kind: fn(&u8) -> bool| item.text.bytes().any(|byte| kind(&byte));
+        let code = has(u8::is_ascii_digit) && has(u8::is_ascii_alphabetic);
+        item.class != Class::Other || (!code && spelling::is_known(&item.text, &self.table))
+    }
+
     /// Whether every word is English.
     fn knows_all(&self, tokens: &[Token]) -> bool {
         tokens.iter().filter_map(Token::word).all(|word| {
@@ -296,65 +212,6 @@ impl<T: WordVectors, S> Reader<T, S> {
             let foreign = |c: char| c.is_alphabetic() && !c.is_ascii() && c != 'μ';
             !without_accents(word).contains(foreign) && spelling::is_known(word, &self.table)
         })
-    }
-}
-
-/// A name of several words is of the surface as a whole.
-fn names(flags: &[Flags], tagged: &mut [(Role, f32)]) {
-    let mut start = 0;
-    for end in 1..=tagged.len() {
-        if flags[end - 1][NAME] == 0.0 {
-            start = end;
-        } else if flags[end - 1][NAME_END] > 0.0 {
-            let name = &mut tagged[start..end];
-            let surface = name
-                .iter()
-                .map(|(_, surface)| *surface)
-                .fold(0.0, libm::fmaxf);
-            if name.iter().any(|(role, _)| *role == Role::Surface) {
-                let context = name.iter_mut().filter(|(role, _)| *role == Role::Context);
-                context.for_each(|tagged| *tagged = (Role::Surface, surface));
-            }
-            start = end;
-        }
-    }
-}
-
-/// Words that stand together are of one thing: what is between a quality and its thing parts them no more than
-/// "grey" does in "wet grey slate".
-fn attributes(tokens: &[Token], flags: &[Flags], tagged: &mut [(Role, f32)]) {
-    let word = |n: usize| tokens[n].word().filter(|word| !is_grammar(word));
-    let is_quality = |n: usize| {
-        let listed = |w| phrase::is_adjective(w) || lexicon::is_quality(w) || flags[n][TOUCH] > 0.0;
-        word(n).is_some_and(listed)
-    };
-    let is_thing = |n: usize| !is_quality(n) && word(n).is_some_and(lexicon::is_name);
-    let mut start = 0;
-    while start < tagged.len() {
-        let count = (start..tagged.len())
-            .take_while(|n| word(*n).is_some())
-            .count();
-        let run: Vec<usize> = (start..start + count).collect();
-        let is = |n: &usize, role: Role| tagged[*n].0 == role;
-        let said = |n: &&usize| is(n, Role::Surface);
-        let more: Vec<usize> = match run.iter().filter(said).rfind(|n| !is_quality(**n)) {
-            Some(thing) => run
-                .iter()
-                .copied()
-                .filter(|n| n < thing && is_quality(*n))
-                .collect(),
-            // The thing behind its quality; "bread soaked in milk".
-            None => run.iter().find(said).map_or_else(Vec::new, |first| {
-                let mut things = run.iter().copied().filter(|n| is_thing(*n));
-                let before = things.clone().rfind(|n| n < first);
-                things.rfind(|n| n > first).or(before).into_iter().collect()
-            }),
-        };
-        let context: Vec<usize> = more.into_iter().filter(|n| is(n, Role::Context)).collect();
-        for n in context {
-            tagged[n] = (Role::Surface, 0.5);
-        }
-        start += count.max(1);
     }
 }
 

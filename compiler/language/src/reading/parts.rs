@@ -1,9 +1,7 @@
 //! Parts of things: the handle of a toothbrush is a handle, and the ends of a rope are rope.
 
-use super::{
-    closed_class::is_determiner,
-    segment::{Class, Item, is_name},
-};
+use super::segment::{Class, Item, is_name};
+use crate::lexicon::closed_class::is_determiner;
 use crate::words::singular;
 use crate::{
     lexicon::{self, is_own_part, substance},
@@ -15,6 +13,36 @@ const WHOLE: &[&str] = &[
     "back", "body", "end", "head", "layer", "length", "lump", "middle", "piece", "point", "roll",
     "sheet", "side", "slab", "square", "strip", "surface", "tip", "top",
 ];
+
+/// Parts that are as their owner is, and need its name.
+const OWNED: &[&str] = &[
+    "back", "belly", "coat", "feather", "fur", "hair", "hide", "leaf", "mane", "muzzle", "peel",
+    "pelt", "rind", "scale", "shell", "skin", "snout", "stem", "tail", "tongue",
+];
+
+/// Whether a word names a part that needs its owner's name.
+pub(super) fn is_owned(word: &str) -> bool {
+    is(OWNED, &singular(word))
+}
+
+/// Items with the owner before a part that needs its name: "skin of a toad".
+pub(super) fn owner_first(mut items: Vec<Item>) -> Vec<Item> {
+    for n in 0..items.len() {
+        if items.get(n).is_some_and(|item| is_owned(&item.text))
+            && let Some(owner) = owner(&items, n, &["of", "from", "on"])
+        {
+            let part = items.remove(n);
+            let mut own = items
+                .splice(n..owner.end - 1, [])
+                .skip(1)
+                .collect::<Vec<_>>();
+            own.retain(|item| !is_determiner(&item.text));
+            own.push(part);
+            items.splice(n..n, own);
+        }
+    }
+    items
+}
 
 /// Items without what a part belongs to, or without the part.
 pub(super) fn divide(mut items: Vec<Item>) -> Vec<Item> {
@@ -41,9 +69,11 @@ fn is(parts: &[&str], part: &str) -> bool {
     parts.contains(&part)
 }
 
-/// The owner after "of", with its articles: from..to, the last of them its name.
-fn owner(items: &[Item], n: usize) -> Option<std::ops::Range<usize>> {
-    items.get(n + 1).filter(|item| item.text == "of")?;
+/// The owner after "of" and the like, with its articles: from..to, the last of them its name.
+fn owner(items: &[Item], n: usize, links: &[&str]) -> Option<std::ops::Range<usize>> {
+    items
+        .get(n + 1)
+        .filter(|item| links.contains(&item.text.as_str()))?;
     let before = |item: &&Item| is_determiner(&item.text) || item.class == Class::Touch;
     let skipped = items[n + 2..].iter().take_while(before).count();
     let name = n + 2 + skipped;
@@ -56,7 +86,7 @@ fn own(items: &mut Vec<Item>, n: usize) {
     let thing =
         |item: &Item| is_name(item) && substance(&item.text).is_none() && !is_quality(&item.text);
     let owned = |item: &Item| item.text.ends_with("'s");
-    let at = if let Some(owner) = owner(items, n) {
+    let at = if let Some(owner) = owner(items, n, &["of"]) {
         let last = owner.end - 1;
         if !thing(&items[last]) {
             return;
@@ -64,7 +94,7 @@ fn own(items: &mut Vec<Item>, n: usize) {
         // Of "a wooden spoon", the handle is wooden.
         match items[last].said.split(' ').next().and_then(substance) {
             Some(of) => {
-                items.splice(owner, [named(of)]);
+                items.splice(owner, [Item::new(of, Class::Name)]);
                 n
             }
             None => {
@@ -96,7 +126,7 @@ fn whole(items: &mut Vec<Item>, n: usize) {
     let plain = !n
         .checked_sub(1)
         .is_some_and(|before| content(&items[before]));
-    if plain && owner(items, n).is_some() {
+    if plain && owner(items, n, &["of"]).is_some() {
         items.splice(n..n + 2, []);
     } else if n > 0
         && is_name(&items[n - 1])
@@ -107,15 +137,7 @@ fn whole(items: &mut Vec<Item>, n: usize) {
         let before = n.checked_sub(1).map(|at| items[at].text.as_str());
         let owner = before.and_then(|text| text.strip_suffix("'s"));
         if let Some(name) = owner.and_then(|name| lexicon::name(&[name])) {
-            items.splice(n - 1..=n, [named(name)]);
+            items.splice(n - 1..=n, [Item::new(name, Class::Name)]);
         }
-    }
-}
-
-fn named(name: &str) -> Item {
-    Item {
-        text: name.to_owned(),
-        said: name.to_owned(),
-        class: Class::Name,
     }
 }

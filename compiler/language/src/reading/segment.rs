@@ -1,10 +1,9 @@
 //! A prompt as items: names, longest first, and what every other word is.
 
-use super::{
-    closed_class::{
-        is_act, is_colour, is_covering, is_determiner, is_function, is_link, is_part, is_picture,
-    },
-    word_sense::Sense,
+use super::word_sense::Sense;
+use crate::lexicon::closed_class::{
+    denial, is_act, is_colour, is_covering, is_determiner, is_function, is_link, is_part,
+    is_picture,
 };
 use crate::words::{
     Token,
@@ -48,13 +47,26 @@ pub(super) struct Item {
     /// The words as they were said.
     pub(super) said: String,
     pub(super) class: Class,
+    /// Tokens that it takes.
+    pub(super) tokens: usize,
+}
+
+impl Item {
+    /// An item of one token.
+    pub(super) fn new(text: &str, class: Class) -> Self {
+        Self {
+            text: text.to_owned(),
+            said: text.to_owned(),
+            class,
+            tokens: 1,
+        }
+    }
 }
 
 pub(super) fn is_name(item: &Item) -> bool {
     item.class == Class::Name
 }
 
-const DENIALS: &[&str] = &["not", "no", "never", "non", "without", "lacking"];
 const COMPARED: &[&str] = &["more", "less", "least", "most", "too", "half"];
 
 /// Divides words into items. `context` is what the whole prompt says of its numbers, if it has some, and `sense` what
@@ -68,7 +80,10 @@ pub(super) fn segment(
     let mut at = 0;
     while at < tokens.len() {
         if let Some((count, grade)) = context.and_then(|about| grade::read(&tokens[at..], about)) {
-            items.push(item(&grade.to_string(), Class::Touch));
+            items.push(Item {
+                tokens: count,
+                ..Item::new(&grade.to_string(), Class::Touch)
+            });
             at += count;
             continue;
         }
@@ -81,7 +96,7 @@ pub(super) fn segment(
             .take(LONGEST)
             .collect();
         let Some(&word) = words.first() else {
-            items.push(item("", Class::Break));
+            items.push(Item::new("", Class::Break));
             at += 1;
             continue;
         };
@@ -94,23 +109,41 @@ pub(super) fn segment(
             .last()
             .is_some_and(|item: &Item| item.text.ends_with("'s"));
         let part = is_part(word) && (owned || words.get(1).is_some_and(|next| *next == "of"));
-        if part {
-            items.push(item(word, Class::Thing));
+        if words.get(1) == Some(&"coloured") {
+            items.push(Item {
+                tokens: 2,
+                ..Item::new(&format!("{word}-coloured"), Class::Other)
+            });
+            at += 2;
+        } else if part {
+            items.push(Item::new(word, Class::Thing));
             at += 1;
         } else if let Some((count, name)) = longest(&words, compared) {
             items.push(Item {
                 said: words[..count].join(" "),
-                ..item(name, Class::Name)
+                tokens: count,
+                ..Item::new(name, Class::Name)
             });
             at += count;
-        } else if words.starts_with(&["far", "from"]) {
+        } else if let Some((count, denial)) = denial(&words) {
             items.push(Item {
-                said: "far from".into(),
-                ..item("not", Class::Denial)
+                said: words[..count].join(" "),
+                tokens: count,
+                ..Item::new(denial, Class::Denial)
+            });
+            at += count;
+        } else if words.starts_with(&["full", "of"]) {
+            items.push(Item {
+                said: "full of".into(),
+                tokens: 2,
+                ..Item::new("with", Class::Link)
             });
             at += 2;
         } else if words.starts_with(&["at", "all"]) {
-            items.push(item("at all", Class::Link));
+            items.push(Item {
+                tokens: 2,
+                ..Item::new("at all", Class::Link)
+            });
             at += 2;
         } else {
             let mut class = class(word, &sense);
@@ -133,7 +166,7 @@ pub(super) fn segment(
             if class == Class::Act && phrase::is_quality(word) && before.is_some_and(sized) {
                 class = Class::Touch;
             }
-            items.push(item(word, class));
+            items.push(Item::new(word, class));
             at += 1;
         }
     }
@@ -147,7 +180,7 @@ pub(super) fn segment(
         if let Some(name) = lexicon::name(&[&items[n].text]).filter(|_| noun) {
             items[n] = Item {
                 said: items[n].said.clone(),
-                ..item(name, Class::Name)
+                ..Item::new(name, Class::Name)
             };
         }
         // "awfully rough"
@@ -172,7 +205,7 @@ fn numbered(items: &mut Vec<Item>) {
         let mut first = n;
         while first > 0
             && (items[first - 1].class == Class::Break
-                || NUMBER.contains(&items[first - 1].text.as_str()))
+                || NUMBER.contains(&items[first - 1].said.as_str()))
         {
             first -= 1;
         }
@@ -180,7 +213,11 @@ fn numbered(items: &mut Vec<Item>) {
         if let Some(number) = number.filter(|_| paper(items.get(n + 1)) || paper(before)) {
             let said = Grade::of(&format!("{number} grit"));
             let text = said.map(|grade| grade.to_string());
-            let new = text.map(|text| item(&text, Class::Touch));
+            let tokens = items[first..=n].iter().map(|item| item.tokens).sum();
+            let new = text.map(|text| Item {
+                tokens,
+                ..Item::new(&text, Class::Touch)
+            });
             n -= items.splice(first..=n, new).count() - 1;
         }
         n += 1;
@@ -200,14 +237,6 @@ fn is_adverb(item: &Item) -> bool {
     item.class == Class::Other && adverb && !ADJECTIVES.contains(&item.text.as_str())
 }
 
-fn item(text: &str, class: Class) -> Item {
-    Item {
-        text: text.to_owned(),
-        said: text.to_owned(),
-        class,
-    }
-}
-
 /// The longest name that words begin with, and how many it takes. A word of grammar is no name by
 /// itself, and neither is a degree before a quality ("rock hard").
 fn longest(words: &[&str], compared: bool) -> Option<(usize, &'static str)> {
@@ -217,20 +246,16 @@ fn longest(words: &[&str], compared: bool) -> Option<(usize, &'static str)> {
     }
     let degree =
         phrase::is_degree(first) && words.get(1).is_some_and(|next| phrase::is_quality(next));
-    (1..=words.len()).rev().find_map(|count| {
+    lexicon::longest(words, |count, name| {
         let alone = count == 1 && (is_function(first) || is_act(first) || degree);
-        let whole = !is_determiner(first) && !alone;
-        let name = lexicon::name(&words[..count]).filter(|_| whole)?;
         // "crisp linen" has no crisps.
         let other = count == 1 && name != first && phrase::is_quality(first);
-        (!other).then_some((count, name))
+        !is_determiner(first) && !alone && !other
     })
 }
 
 fn class(word: &str, sense: impl Fn(&str) -> Sense) -> Class {
-    if DENIALS.contains(&word) {
-        Class::Denial
-    } else if COMPARED.contains(&word) || phrase::is_degree(word) {
+    if COMPARED.contains(&word) || phrase::is_degree(word) {
         Class::Degree
     } else if is_link(word) {
         Class::Link

@@ -1,6 +1,6 @@
 //! Misspellings: a word that no one knows, and that is nearly one of the reader's.
 
-use super::closed_class::{is_colour, is_grammar};
+use crate::lexicon::closed_class::{is_colour, is_grammar};
 use crate::words::{Token, singular, spelled, without_accents};
 use crate::{Vocabulary, WordVectors, lexicon, phrase};
 use std::collections::BTreeMap;

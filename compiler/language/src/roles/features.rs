@@ -22,10 +22,8 @@ pub fn flags(tokens: &[Token], table: &impl WordVectors) -> Vec<Flags> {
             .map_while(Token::word)
             .take(LONGEST)
             .collect();
-        let taken = (1..=words.len())
-            .rev()
-            .find(|count| lexicon::name(&words[..*count]).is_some());
-        let count = taken.unwrap_or(1);
+        let taken = lexicon::longest(&words, |_, _| true);
+        let count = taken.map_or(1, |(count, _)| count);
         for (n, flags) in all[at..at + count].iter_mut().enumerate() {
             let mut set = |flag: usize, holds: bool| flags[flag] = f32::from(u8::from(holds));
             let Some(word) = tokens[at + n].word() else {

@@ -36,13 +36,6 @@ pub const FLAGS: [&str; WIDTH] = [
     "owner",
 ];
 
-/// The flag of a word of a name.
-pub(crate) const NAME: usize = 1;
-/// The flag of the last word of a name.
-pub(crate) const NAME_END: usize = 2;
-/// The flag of a word that says how something feels, by its vector.
-pub(crate) const TOUCH: usize = 10;
-
 /// What a word does in a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {

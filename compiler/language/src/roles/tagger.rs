@@ -105,26 +105,33 @@ impl Tagger {
             last: Layer::read(&mut bytes, 2 * UNITS, ROLES),
         }
     }
+
+    /// The evidence of each role of every token.
+    fn of(&self, states: &[Vec<f32>], flags: &[Flags]) -> Vec<Vec<f32>> {
+        let tokens = states.iter().zip(flags);
+        let first = tokens.map(|(state, flags)| {
+            let mut units = self.first.of(state.iter().chain(flags).copied());
+            units.iter_mut().for_each(|x| *x = libm::fmaxf(*x, 0.0));
+            units
+        });
+        let first: Vec<Vec<f32>> = first.collect();
+        let forward = self.forward.of(first.iter());
+        let mut backward = self.backward.of(first.iter().rev());
+        backward.reverse();
+        let all = first.iter().zip(forward.iter().zip(&backward));
+        all.map(|(first, (forward, backward))| {
+            let units = first.iter().chain(forward).chain(backward).copied();
+            self.last.of(units)
+        })
+        .collect()
+    }
 }
 
 /// The likeliest role of each token that has a state, and the probability that it says what is touched.
 #[must_use]
 pub(crate) fn tag(states: &[Vec<f32>], flags: &[Flags]) -> Vec<(Role, f32)> {
-    let tagger = &*TAGGER;
-    let tokens = states.iter().zip(flags);
-    let first = tokens.map(|(state, flags)| {
-        let mut units = tagger.first.of(state.iter().chain(flags).copied());
-        units.iter_mut().for_each(|x| *x = libm::fmaxf(*x, 0.0));
-        units
-    });
-    let first: Vec<Vec<f32>> = first.collect();
-    let forward = tagger.forward.of(first.iter());
-    let mut backward = tagger.backward.of(first.iter().rev());
-    backward.reverse();
-    let all = first.iter().zip(forward.iter().zip(&backward));
-    all.map(|(first, (forward, backward))| {
-        let units = first.iter().chain(forward).chain(backward).copied();
-        let evidence = tagger.last.of(units);
+    let all = TAGGER.of(states, flags).into_iter();
+    all.map(|evidence| {
         let mut best = 0;
         for n in 1..evidence.len() {
             if evidence[n] > evidence[best] {

@@ -3,7 +3,7 @@
 use super::{TextError, Vocabulary, minilm};
 use asperity_language::{roles, words::Token};
 use asperity_nn::{Portable, Tensor};
-use std::{ops::Range, sync::LazyLock};
+use std::ops::Range;
 
 /// The states behind layer 3 of 6 in the embedded encoder's graph.
 const LAYER: &str = "t101";
@@ -15,9 +15,12 @@ const MOST_PIECES: usize = 512;
 /// The embedded encoder on the portable engine, as far as the states of its words.
 #[derive(Clone, Copy)]
 pub struct WordStates {
-    network: &'static LazyLock<Result<Portable, String>>,
+    network: Network,
     vocabulary: Vocabulary,
 }
+
+/// Gives the encoder, which it loads when it is first asked.
+type Network = fn() -> Result<&'static Portable, String>;
 
 impl roles::WordStates for WordStates {
     /// None where the network fails, which a test rules out for the embedded one.
@@ -29,10 +32,7 @@ impl roles::WordStates for WordStates {
 impl WordStates {
     /// States of an encoder.
     #[must_use]
-    pub fn new(
-        network: &'static LazyLock<Result<Portable, String>>,
-        vocabulary: Vocabulary,
-    ) -> Self {
+    pub fn new(network: Network, vocabulary: Vocabulary) -> Self {
         Self {
             network,
             vocabulary,
@@ -45,8 +45,7 @@ impl WordStates {
     /// [`TextError`] when the vocabulary or the network is not that of the embedded encoder.
     pub fn try_states(&self, tokens: &[Token]) -> Result<Vec<Vec<f32>>, TextError> {
         let failed = |error: asperity_nn::RunError| TextError::Network(error.to_string());
-        let network = self.network.as_ref();
-        let network = network.map_err(|message| TextError::Network(message.clone()))?;
+        let network = (self.network)().map_err(TextError::Network)?;
         let [start, end] = minilm::marks(&self.vocabulary)?;
         let pieces = tokens.iter().map(|token| match token {
             Token::Word(word) => minilm::pieces(word, &self.vocabulary),

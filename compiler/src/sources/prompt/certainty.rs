@@ -8,12 +8,20 @@ use super::{
 use crate::learned::Certainty;
 use asperity_language::lexicon::is_name;
 
+/// The probability with which every word of a sentence should be known to be felt, or not.
+const SURE: f32 = 0.7;
+
 impl PromptCompiler {
     /// What was read is known where it is one name, with qualities and numbers at most; close where it is put
-    /// together of known things, or lies near to what the model was trained on; else a guess. What was misspelt is at
-    /// most close, and a guess where it may be another word.
+    /// together of known things, or lies near to what the model was trained on; else a guess. Where a word is felt or not with less than [`SURE`], it is one level less. What
+    /// was misspelt is at most close, and a guess where it may be another word.
     pub(super) fn certainty(&self, reading: &Reading, unfamiliar: bool) -> Certainty {
         let certainty = self.certainty_as_read(reading, unfamiliar);
+        let certainty = match certainty {
+            Certainty::Known if reading.sure < SURE => Certainty::Close,
+            Certainty::Close if reading.sure < SURE => Certainty::Guess,
+            certainty => certainty,
+        };
         let taken = |correction: &&Correction| reading.holds(&correction.taken);
         match reading.correction.as_ref().filter(taken) {
             Some(correction) if correction.doubtful => Certainty::Guess,

@@ -4,10 +4,11 @@
 //! sum in the same order whatever the batch. So what is read together is to the bit what is read
 //! alone, and weights are expanded once for many prompts.
 
-use super::{PromptCompiler, PromptError};
+use super::{PromptCompiler, PromptError, reading::Reading};
 use crate::learned::{Decoded, Latent, Projected, text::Encoded};
 use std::{
     collections::{HashMap, HashSet},
+    hash::Hash,
     sync::{Arc, Mutex, PoisonError},
 };
 
@@ -20,6 +21,7 @@ pub(super) type Read = Arc<(Encoded, Projected)>;
 /// What was read ahead. It is what would be computed again, so nothing depends on it but time.
 #[derive(Debug, Default)]
 pub(super) struct EncodingCache {
+    readings: Mutex<HashMap<String, Reading>>,
     read: Mutex<HashMap<String, Read>>,
     decoded: Mutex<HashMap<Bits, Arc<Decoded>>>,
 }
@@ -32,6 +34,11 @@ fn bits(z: &Latent) -> Bits {
 }
 
 impl EncodingCache {
+    pub(super) fn reading(&self, prompt: &str) -> Option<Reading> {
+        let readings = self.readings.lock().unwrap_or_else(PoisonError::into_inner);
+        readings.get(prompt).cloned()
+    }
+
     pub(super) fn read(&self, text: &str) -> Option<Read> {
         let read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
         read.get(text).cloned()
@@ -57,6 +64,7 @@ impl PromptCompiler {
     fn try_read_ahead(&self, prompts: &[&str]) -> Result<(), PromptError> {
         let mut texts: Vec<String> = Vec::new();
         let mut seen = HashSet::new();
+        let mut readings = Vec::new();
         for prompt in prompts {
             let reading = self.read(prompt);
             let things = reading.phrase.things().into_iter();
@@ -67,38 +75,31 @@ impl PromptCompiler {
                     texts.push(text);
                 }
             }
+            readings.push(((*prompt).to_owned(), reading));
         }
+        keep(&self.cache.readings, readings);
         let plain: Vec<&str> = texts.iter().map(String::as_str).collect();
         let encoded = self.text.encode_all(&plain)?;
         let vectors: Vec<&[f32]> = encoded.iter().map(|e| e.vector.as_slice()).collect();
         let projected = self.model().project_all(&vectors)?;
         let latents: Vec<Latent> = projected.iter().map(|projected| projected.z).collect();
         let decoded = self.model().decode_all(&latents)?;
-        let mut read = self
-            .cache
-            .read
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner);
-        if read.len() + texts.len() > MOST {
-            read.clear();
-        }
         let answers = encoded.into_iter().zip(projected).map(Arc::new);
-        read.extend(texts.into_iter().zip(answers));
-        drop(read);
-        let mut kept = self
-            .cache
-            .decoded
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner);
-        if kept.len() + latents.len() > MOST {
-            kept.clear();
-        }
-        kept.extend(
-            latents
-                .iter()
-                .map(bits)
-                .zip(decoded.into_iter().map(Arc::new)),
+        keep(&self.cache.read, texts.into_iter().zip(answers).collect());
+        let decoded = decoded.into_iter().map(Arc::new);
+        keep(
+            &self.cache.decoded,
+            latents.iter().map(bits).zip(decoded).collect(),
         );
         Ok(())
     }
+}
+
+/// Adds answers, instead of all others where there would be too many.
+fn keep<K: Eq + Hash, V>(kept: &Mutex<HashMap<K, V>>, answers: Vec<(K, V)>) {
+    let mut kept = kept.lock().unwrap_or_else(PoisonError::into_inner);
+    if kept.len() + answers.len() > MOST {
+        kept.clear();
+    }
+    kept.extend(answers);
 }

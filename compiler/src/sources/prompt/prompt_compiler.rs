@@ -103,7 +103,8 @@ impl PromptCompiler {
     /// What a prompt names, and what it says of touch: what is encoded of it.
     #[must_use]
     pub fn read(&self, prompt: &str) -> Reading {
-        self.reader.read(prompt)
+        let cached = self.cache.reading(prompt);
+        cached.unwrap_or_else(|| self.reader.read(prompt))
     }
 
     /// The same of a text that names a surface, and nothing else.

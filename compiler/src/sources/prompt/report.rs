@@ -84,7 +84,7 @@ impl CompiledPrompt {
         lines.add(
             "certainty",
             format!(
-                "{} ({:.0} % of prompt pairs at this level come out in the order a person rated them)",
+                "{} ({:.0} % of sentences at this level feel like what they say is touched)",
                 self.certainty,
                 100.0 * self.certainty.share()
             ),

@@ -27,6 +27,8 @@ const THINGS: [&str; 14] = [
 ];
 /// Files of the lexicon whose phrases end with the thing that they speak of.
 const HEADS: [&str; 2] = ["lexicon/bases.csv", "lexicon/modifiers.csv"];
+/// Lines `text,name`: trade names, and words of trades and regions, for names of what feels as they do.
+const TRADE_NAMES: &str = include_str!("../../../corpora/trade_names.csv");
 /// Words of a name of the lexicon at most: longer ones are descriptions.
 const MOST_WORDS: usize = 4;
 /// Things before whose names a word stands that is a name by itself.
@@ -39,7 +41,7 @@ const JOINS: [&str; 24] = [
 
 /// Lines `key TAB name` in the order of their keys, the name left out where it equals the key. Of
 /// several names of one key, or of keys that are alike in one word, the first counts: materials, then synonyms, then the
-/// lexicon, then woods; of the lexicon that which is its own key.
+/// lexicon, then woods, then trade names; of the lexicon that which is its own key.
 ///
 /// # Panics
 /// If the committed corpus is broken, which a test of this crate finds first.
@@ -88,6 +90,10 @@ pub fn table() -> String {
         names.add_as(wood, &whole);
         names.add_as(&whole, &whole);
     }
+    for (said, name) in trade_names() {
+        let known = key(&name).and_then(|key| names.by_key.get(&key).cloned());
+        names.add_as(&said, &known.expect("the name of a trade name"));
+    }
     // "glass" and "nylon" are no plurals without their s: they stand before or behind others.
     let mut firsts: BTreeMap<&str, usize> = BTreeMap::new();
     for (first, _) in things.iter().filter_map(|name| name.split_once(' ')) {
@@ -108,6 +114,17 @@ pub fn table() -> String {
         }
     };
     names.by_key.iter().map(line).collect()
+}
+
+/// Trade names, and the names of what feels as they do.
+///
+/// # Panics
+/// As [`table`].
+#[must_use]
+pub fn trade_names() -> Vec<(String, String)> {
+    let mut reader = csv::Reader::from_reader(TRADE_NAMES.as_bytes());
+    let rows: Result<_, _> = reader.deserialize().collect();
+    rows.expect("the committed trade names")
 }
 
 /// Names by their keys, and by their keys in one word.

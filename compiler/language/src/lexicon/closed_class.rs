@@ -2,19 +2,36 @@
 
 use crate::{Vocabulary, phrase};
 
-/// Lines `word TAB classes`, sorted by the bytes of the word. `determiner`: also pronouns. `auxiliary`: verbs of being and
+/// Lines `words TAB classes`, sorted by the bytes of the words. `determiner`: also pronouns. `auxiliary`: verbs of being and
 /// having. `link`: joins two objects, or an object and its qualities. `place`: after it comes a place, an owner, a time, a
-/// use, or what something moves across. `act`: what a prompt says of itself or of touching. `colour`: also patterns, and what
+/// use, or what something moves across. `act`: what a prompt says of itself or of touching. `colour`: also patterns, shapes, and what
 /// speaks of them. `picture` and `part`: of what follows "of". `covering`: a participle after which "in", "with" or "from"
-/// names the cover or the material of an object.
+/// names the cover or the material of an object. `not` and `without`: words that deny what follows as these do. From `hardly` to
+/// `extremely`: words of degree. `empty`: names nothing. Of an edit, `raise`, `lower`, and `filler`, which asks for nothing.
 const CLOSED_CLASS: &str = include_str!("closed_class.tsv");
 
 /// Whether a word has one of these classes.
-fn is(word: &str, classes: &[&str]) -> bool {
+pub(crate) fn is(word: &str, classes: &[&str]) -> bool {
     let line = Vocabulary::new(CLOSED_CLASS).line("", word);
     let own = line.and_then(|line| line.split_once('\t'));
     own.is_some_and(|(_, own)| own.split(' ').any(|class| classes.contains(&class)))
 }
+
+/// How many words deny what follows, and whether they say "not" or "without".
+pub(crate) fn denial(words: &[&str]) -> Option<(usize, &'static str)> {
+    (1..=words.len().min(LONGEST_DENIAL))
+        .rev()
+        .find_map(|count| {
+            let said = words[..count].join(" ");
+            let denial = ["not", "without"]
+                .into_iter()
+                .find(|denial| is(&said, &[denial]))?;
+            Some((count, denial))
+        })
+}
+
+/// Words of a denial at most.
+const LONGEST_DENIAL: usize = 3;
 
 /// Whether a word is a colour or a pattern.
 #[must_use]
@@ -38,27 +55,27 @@ pub fn is_colour(word: &str) -> bool {
 }
 
 /// Whether a word before "of" is a part of an object.
-pub(super) fn is_part(word: &str) -> bool {
+pub(crate) fn is_part(word: &str) -> bool {
     is(word, &["part"])
 }
 
 /// Whether "in", "by" or "from" after this word names the cover or the material of an object.
-pub(super) fn is_covering(word: &str) -> bool {
+pub(crate) fn is_covering(word: &str) -> bool {
     phrase::is_cover(word) || is(word, &["covering"])
 }
 
 /// Whether a word has no meaning of its own.
-pub(super) fn is_function(word: &str) -> bool {
+pub(crate) fn is_function(word: &str) -> bool {
     is(word, &["determiner", "auxiliary", "link", "place"])
 }
 
 /// Whether what follows a word is a place, an owner, a time or a use.
-pub(super) fn is_place(word: &str) -> bool {
+pub(crate) fn is_place(word: &str) -> bool {
     is(word, &["place"])
 }
 
 /// Whether a word before "of" is a picture of what follows.
-pub(super) fn is_picture(word: &str) -> bool {
+pub(crate) fn is_picture(word: &str) -> bool {
     is(word, &["picture"])
 }
 
@@ -69,17 +86,17 @@ pub fn is_grammar(word: &str) -> bool {
 }
 
 /// Whether a word is an article, a determiner or a pronoun.
-pub(super) fn is_determiner(word: &str) -> bool {
+pub(crate) fn is_determiner(word: &str) -> bool {
     is(word, &["determiner"])
 }
 
 /// Whether a word joins an object and its description.
-pub(super) fn is_link(word: &str) -> bool {
+pub(crate) fn is_link(word: &str) -> bool {
     is(word, &["link"])
 }
 
 /// Whether a word speaks of touching or of the prompt itself.
-pub(super) fn is_act(word: &str) -> bool {
+pub(crate) fn is_act(word: &str) -> bool {
     is(word, &["act", "picture"])
 }
 
@@ -104,6 +121,17 @@ mod tests {
             "picture",
             "part",
             "covering",
+            "not",
+            "without",
+            "hardly",
+            "little",
+            "fairly",
+            "very",
+            "extremely",
+            "empty",
+            "raise",
+            "lower",
+            "filler",
         ];
         assert!(words.iter().all(|word| is(word, CLASSES)));
     }
