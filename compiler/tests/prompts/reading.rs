@@ -100,9 +100,9 @@ fn the_longest_name_wins_and_its_words_change_nothing() {
 
 #[test]
 fn what_is_left_out_is_told() {
-    let reading = read("expensive gravel from my grandmother");
+    let reading = read("imported gravel from my grandmother");
     assert_eq!(reading.names, ["gravel"]);
-    assert_eq!(reading.ignored, ["expensive", "grandmother"]);
+    assert_eq!(reading.ignored, ["grandmother"]);
 }
 
 #[test]
@@ -200,6 +200,7 @@ fn what_no_list_of_english_holds_says_nothing() {
         "schleifpapier",
         "żwir",
         "sжndpaper",
+        "wug blicket dax",
         "a rough zorble",
     ] {
         assert!(!read(prompt).says, "{prompt}");

@@ -4,10 +4,11 @@ use crate::{Vocabulary, phrase};
 
 /// Lines `words TAB classes`, sorted by the bytes of the words. `determiner`: also pronouns. `auxiliary`: verbs of being and
 /// having. `link`: joins two objects, or an object and its qualities. `place`: after it comes a place, an owner, a time, a
-/// use, or what something moves across. `act`: what a prompt says of itself or of touching. `colour`: also patterns, shapes, and what
-/// speaks of them. `picture` and `part`: of what follows "of". `covering`: a participle after which "in", "with" or "from"
-/// names the cover or the material of an object. `not` and `without`: words that deny what follows as these do. From `hardly` to
-/// `extremely`: words of degree. `empty`: names nothing. Of an edit, `raise`, `lower`, and `filler`, which asks for nothing.
+/// use, or what something moves across. `act`: what a prompt says of itself or of touching. `colour`: also patterns, shapes,
+/// and what speaks of them. `picture` and `part`: of what follows "of". `covering`: a participle after which "in", "with" or
+/// "from" names the cover or the material of an object. `not`, `without` and `with`: words that mean these. From `hardly`
+/// to `extremely`: words of degree. `empty`: names nothing. Of an edit, `raise`, `lower`, and `filler`, which asks for
+/// nothing.
 const CLOSED_CLASS: &str = include_str!("closed_class.tsv");
 
 /// Whether a word has one of these classes.
@@ -17,41 +18,22 @@ pub(crate) fn is(word: &str, classes: &[&str]) -> bool {
     own.is_some_and(|(_, own)| own.split(' ').any(|class| classes.contains(&class)))
 }
 
-/// How many words deny what follows, and whether they say "not" or "without".
-pub(crate) fn denial(words: &[&str]) -> Option<(usize, &'static str)> {
-    (1..=words.len().min(LONGEST_DENIAL))
-        .rev()
-        .find_map(|count| {
-            let said = words[..count].join(" ");
-            let denial = ["not", "without"]
-                .into_iter()
-                .find(|denial| is(&said, &[denial]))?;
-            Some((count, denial))
-        })
+/// How many words mean "not", "without" or "with", and which of these.
+pub(crate) fn meant(words: &[&str]) -> Option<(usize, &'static str)> {
+    (1..=words.len().min(LONGEST)).rev().find_map(|count| {
+        let said = words[..count].join(" ");
+        let mut meanings = ["not", "without", "with"].into_iter();
+        Some((count, meanings.find(|meaning| is(&said, &[meaning]))?))
+    })
 }
 
-/// Words of a denial at most.
-const LONGEST_DENIAL: usize = 3;
+/// Words of a line at most.
+const LONGEST: usize = 3;
 
 /// Whether a word is a colour or a pattern.
 #[must_use]
 pub fn is_colour(word: &str) -> bool {
-    const SHADES: &[&str] = &[
-        "blackish",
-        "bluish",
-        "brownish",
-        "greenish",
-        "greyish",
-        "pinkish",
-        "purplish",
-        "reddish",
-        "whitish",
-        "yellowish",
-    ];
-    is(word, &["colour"])
-        || word.ends_with("coloured")
-        || word.ends_with("chequered")
-        || SHADES.contains(&word)
+    is(word, &["colour"]) || word.ends_with("coloured") || word.ends_with("chequered")
 }
 
 /// Whether a word before "of" is a part of an object.
@@ -123,6 +105,7 @@ mod tests {
             "covering",
             "not",
             "without",
+            "with",
             "hardly",
             "little",
             "fairly",

@@ -2,14 +2,13 @@
 
 use super::{
     Reader, Reading, Text,
-    group::{Group, is_adjective, is_content, is_thing, one_thing, phrase_of},
+    group::{Group, is_adjective, is_content, is_felt, is_thing, one_thing, phrase_of},
     read,
     segment::{Class, Item},
 };
 use crate::{
     WordVectors,
     lexicon::closed_class::is_grammar,
-    phrase,
     roles::{Role, WordStates, flags, tag},
     words::{Token, grade::Grade},
 };
@@ -56,10 +55,7 @@ impl<T: WordVectors, S: WordStates> Reader<T, S> {
         }
         // "bark without its roughness"; but "not soft, scratchy" is scratchy.
         if !groups.iter().any(Group::is_felt) {
-            let qualities = denied.into_iter();
-            let is_quality =
-                |item: &Item| item.class == Class::Touch || phrase::is_quality(&item.text);
-            groups.extend(qualities.filter(is_quality).map(Group::denied));
+            groups.extend(denied.into_iter().filter(is_felt).map(Group::denied));
         }
         let contact = !groups.is_empty();
         let (words, names) = self.named(text, &phrase_of(one_thing(groups)));

@@ -46,8 +46,7 @@ impl Group {
 
     /// Whether it says how something feels.
     pub(super) fn is_felt(&self) -> bool {
-        let listed = |item: &Item| item.class == Class::Touch || phrase::is_quality(&item.text);
-        self.items.iter().any(listed)
+        self.items.iter().any(is_felt)
     }
 
     /// Its thing: what is named or described before "with", "in" and the like, which only say more of it.
@@ -60,6 +59,11 @@ impl Group {
 /// Whether what follows a word only says more of what stands before it.
 fn adds(item: &Item) -> bool {
     ["with", "in", "by", "from", "without"].contains(&item.text.as_str())
+}
+
+/// Whether an item says how something feels.
+pub(super) fn is_felt(item: &Item) -> bool {
+    item.class == Class::Touch || phrase::is_quality(&item.text)
 }
 
 pub(super) fn is_content(item: &Item) -> bool {

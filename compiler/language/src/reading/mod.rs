@@ -65,7 +65,6 @@ pub const VERSION: &str = "f906f2f2";
 
 /// Words of a prompt that are read: several times what an encoder reads of them.
 pub const MOST_WORDS: usize = 1024;
-
 /// Words of a description that is encoded as a whole.
 const MOST_DESCRIBED: usize = 10;
 
@@ -146,12 +145,12 @@ impl<T: WordVectors, S: WordStates> Reader<T, S> {
             return self.surface(text, &known, &items);
         }
         let (mut reading, read) = self.contact(&text, &items);
-        // "the untidy welds on a farm gate": what no name says, all of its words say.
         // "hair band": two words with a name name something.
         if !reading.contact && items.len() == 2 && has(Class::Name) {
             reading.contact = true;
             reading.says = self.knows_all(&text.tokens);
         }
+        // "the untidy welds on a farm gate": what no name says, all of its words say.
         let asks = |item: &Item| item.class == Class::Act || read::is_person(&item.text);
         let unnamed = reading.names.is_empty() && items.len() > read::FEW;
         let described = (unnamed && !items.iter().any(asks)) || description::is_whole(&items);

@@ -43,9 +43,15 @@ pub(super) fn is_bare(items: &[Item]) -> bool {
 
 /// Words of a text that is read by word vectors alone.
 pub(super) const FEW: usize = 3;
-const PERSONS: &[&str] = &[
-    "i", "you", "he", "she", "we", "they", "me", "him", "us", "them", "who",
-];
+
+/// Whether a word is for somebody, who stands in sentences alone.
+pub(super) fn is_person(word: &str) -> bool {
+    const PERSONS: &[&str] = &[
+        "i", "you", "he", "she", "we", "they", "me", "him", "us", "them", "who",
+    ];
+    PERSONS.contains(&word)
+}
+
 /// Words of content that are in a text, and not in what was read of it.
 pub(super) fn left_out(items: &[Item], reading: &Reading) -> Vec<String> {
     let says = |item: &&Item| is_content(item) || is_colour(&item.text);
@@ -54,11 +60,6 @@ pub(super) fn left_out(items: &[Item], reading: &Reading) -> Vec<String> {
         .filter(says)
         .filter(|item| !reading.holds(&item.text));
     gone.map(|item| item.text.clone()).collect()
-}
-
-/// Whether a word is for somebody, who stands in sentences alone.
-pub(super) fn is_person(word: &str) -> bool {
-    PERSONS.contains(&word)
 }
 
 /// All words of a text.

@@ -2,8 +2,7 @@
 
 use super::word_sense::Sense;
 use crate::lexicon::closed_class::{
-    denial, is_act, is_colour, is_covering, is_determiner, is_function, is_link, is_part,
-    is_picture,
+    is_act, is_colour, is_covering, is_determiner, is_function, is_link, is_part, is_picture, meant,
 };
 use crate::words::{
     Token,
@@ -89,10 +88,7 @@ pub(super) fn segment(
         }
         let words: Vec<&str> = tokens[at..]
             .iter()
-            .map_while(|token| match token {
-                Token::Word(word) => Some(word.as_str()),
-                Token::Break(_) => None,
-            })
+            .map_while(Token::word)
             .take(LONGEST)
             .collect();
         let Some(&word) = words.first() else {
@@ -125,20 +121,18 @@ pub(super) fn segment(
                 ..Item::new(name, Class::Name)
             });
             at += count;
-        } else if let Some((count, denial)) = denial(&words) {
+        } else if let Some((count, meant)) = meant(&words) {
+            let class = if meant == "with" {
+                Class::Link
+            } else {
+                Class::Denial
+            };
             items.push(Item {
                 said: words[..count].join(" "),
                 tokens: count,
-                ..Item::new(denial, Class::Denial)
+                ..Item::new(meant, class)
             });
             at += count;
-        } else if words.starts_with(&["full", "of"]) {
-            items.push(Item {
-                said: "full of".into(),
-                tokens: 2,
-                ..Item::new("with", Class::Link)
-            });
-            at += 2;
         } else if words.starts_with(&["at", "all"]) {
             items.push(Item {
                 tokens: 2,

@@ -3,9 +3,13 @@
 use super::WIDTH;
 use crate::{
     WordVectors,
-    lexicon::{self, LONGEST, substance},
+    lexicon::{
+        self, LONGEST,
+        closed_class::{is_colour, is_grammar},
+        substance,
+    },
     phrase,
-    reading::{is_colour, is_grammar, word_sense},
+    reading::word_sense,
     words::Token,
 };
 
