@@ -3,7 +3,7 @@
 //! | module | |
 //! |---|---|
 //! | `words` | a text as words in one form, and numbers with a scale |
-//! | `lexicon` | names of things, what they are made of, and qualities |
+//! | `lexicon` | names of things, what they are made of, qualities, words of grammar |
 //! | `phrase` | qualities, materials and covers of what is named |
 //! | `roles` | which words of a sentence say what is touched, by a small network |
 //! | `reading` | what a text says is touched, as one phrase |

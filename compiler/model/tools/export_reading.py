@@ -237,7 +237,7 @@ def main():
     words.touch |= {word for kind, _, word in held if kind == "touch"}
     shipped = words.fitted(rows, set())
     lines = "".join(f"{touch:.5g}\t{thing:.5g}\n" for touch, thing in zip(*shipped))
-    (READER / "reading/weights.tsv").write_text(lines)
+    (READER / "lexicon/weights.tsv").write_text(lines)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,9 @@
-//! What the reader and the grammar both know of things: their names, what they are made of, and which parts
-//! of them are things of their own.
+//! What the reader, the tagger and the grammar know of words: names of things, what these are made of, which parts of them
+//! are things of their own, words of grammar, and what a word of no list may say.
 
 pub(crate) mod closed_class;
 mod names;
+pub(crate) mod word_sense;
 
 pub(crate) use names::{LONGEST, is_quality, keys, name, vocabulary};
 pub use names::{in_one_word, key, names, qualities};

@@ -34,7 +34,6 @@ mod parts;
 mod read;
 mod segment;
 mod spelling;
-pub(crate) mod word_sense;
 
 use group::{Group, phrase_of};
 use read::is_bare;
@@ -51,6 +50,7 @@ use std::borrow::Cow;
 
 use crate::{
     WordVectors,
+    lexicon::word_sense,
     phrase::{self, Phrase},
     roles::WordStates,
     words::{

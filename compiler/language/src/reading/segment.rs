@@ -1,9 +1,9 @@
 //! A prompt as items: names, longest first, and what every other word is.
 
-use super::word_sense::Sense;
 use crate::lexicon::closed_class::{
     is_act, is_colour, is_covering, is_determiner, is_function, is_link, is_part, is_picture, meant,
 };
+use crate::lexicon::word_sense::Sense;
 use crate::words::{
     Token,
     grade::{self, Grade},

@@ -6,10 +6,9 @@ use crate::{
     lexicon::{
         self, LONGEST,
         closed_class::{is_colour, is_grammar},
-        substance,
+        substance, word_sense,
     },
     phrase,
-    reading::word_sense,
     words::Token,
 };
 
