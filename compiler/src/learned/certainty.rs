@@ -21,14 +21,14 @@ pub enum Certainty {
 }
 
 impl Certainty {
-    /// The share of unseen sentences of this level that feel like what is touched in them, 0..=1 (`docs/words.md`;
+    /// The share of sentences of this level, of three writers, that feel like what is touched in them, 0..=1 (`docs/words.md`;
     /// `compiler/tests/prompts/sentences.rs` measures it).
     #[must_use]
     pub const fn share(self) -> f64 {
         match self {
-            Self::Known => 0.80,
-            Self::Close => 0.60,
-            Self::Guess => 0.34,
+            Self::Known => 0.92,
+            Self::Close => 0.70,
+            Self::Guess => 0.45,
             Self::NoContact => 0.0,
         }
     }

@@ -1,6 +1,6 @@
 //! Sentences of writers who have not seen the reader: what is touched in them feels like what they name.
 //!
-//! `open` is what work on the reader looks at. `sealed` is scored once, when that work is done:
+//! Work on the reader looks at `open` and `second`. `sealed` is scored once, when that work is done:
 //! `ASPERITY_SEALED=1 ASPERITY_TEST_SIZE=full cargo test -p asperity --test it sentences -- --nocapture`.
 
 use super::{PROMPTS, rewordings::distance};
@@ -16,7 +16,8 @@ use rayon::prelude::*;
 use sha2::{Digest as _, Sha256};
 use std::{cmp::Ordering, collections::BTreeMap, fs, path::PathBuf};
 
-/// What is scored, and the least share of `open` in a sample; `docs/figures/sentences.toml` holds the whole set exactly.
+/// What is scored, and the least share of the sets that are looked at in a sample; `docs/figures/sentences_*.toml` hold the
+/// whole sets exactly.
 const LEAST_SHARES: [(&str, f64); 6] = [
     ("sentences that name what is touched", 0.7),
     ("denials", 0.8),
@@ -53,9 +54,10 @@ fn none(prompt: &str) -> bool {
     PROMPTS.project(prompt).expect(prompt).certainty == Certainty::NoContact
 }
 
-/// The level of every sentence of a set, and whether what is touched in it was compiled.
-fn levels(set: &str) -> Vec<(Certainty, bool)> {
-    let lines = lines(set, "sentences.tsv");
+/// The level of every sentence, and whether what is touched in it was compiled.
+fn levels() -> Vec<(Certainty, bool)> {
+    let sets = sets().iter();
+    let lines: Vec<String> = sets.flat_map(|set| lines(set, "sentences.tsv")).collect();
     let level = |line: &String| {
         let mut fields = line.split('\t').skip(1);
         let (text, bare) = (fields.next().expect(line), fields.next().expect(line));
@@ -86,8 +88,7 @@ fn the_level_of_a_sentence_tells_whether_it_is_met() {
         println!("skipped: it takes the whole set (ASPERITY_TEST_SIZE=full)");
         return;
     }
-    let set = set();
-    let levels = levels(set);
+    let levels = levels();
     let detected = detected(&levels);
     println!("unmet requests below met ones: {detected:.3}");
     let of = LEVELS.map(|level| {
@@ -101,31 +102,40 @@ fn the_level_of_a_sentence_tells_whether_it_is_met() {
         [met, own.len()]
     });
     assert!(detected >= LEAST_DETECTED, "{detected}");
-    let percent = |level: usize| figures::percent(of[level][0], of[level][1]);
+    let mut figures = vec![("detected".to_owned(), format!("{detected:.2}"))];
+    for (level, [met, all]) in LEVELS.iter().zip(of) {
+        figures.push((level.to_string(), figures::percent(met, all)));
+        figures.push((format!("{level}_met"), met.to_string()));
+        figures.push((format!("{level}_of"), all.to_string()));
+    }
+    let figure = |n: usize| (figures[n].0.as_str(), figures[n].1.clone());
     figures::hold_at_full(
-        &format!("certainty_{set}"),
+        &format!("certainty_{}", name()),
         "-p asperity --test it the_level_of_a_sentence",
-        [
-            ("detected", format!("{detected:.2}")),
-            ("no_contact", percent(0)),
-            ("guess", percent(1)),
-            ("close", percent(2)),
-            ("known", percent(3)),
-        ],
+        std::array::from_fn::<_, 13, _>(figure),
     );
 }
 
-/// Claim: the shares that reports state are those that were measured on the sealed set.
+/// Claim: the shares that reports state are those of all three sets together.
 #[test]
 fn reports_state_the_measured_shares() {
-    let file = figures::folder().join("certainty_sealed.toml");
-    let measured = figures::Set::read(&file).expect("figures");
+    let files = ["certainty_seen.toml", "certainty_sealed.toml"];
+    let sets =
+        files.map(|file| figures::Set::read(&figures::folder().join(file)).expect("figures"));
     for level in LEVELS {
-        let percent: f64 = measured.figures[&level.to_string()]
-            .parse()
-            .expect("a number");
-        let apart = (level.share() - percent / 100.0).abs();
-        assert!(apart <= CALIBRATED, "{level}: {percent} %");
+        let sum = |of: &str| -> f64 {
+            let counts = sets
+                .iter()
+                .map(|set| &set.figures[&format!("{level}_{of}")]);
+            counts
+                .map(|count| count.parse::<f64>().expect("a count"))
+                .sum()
+        };
+        let share = sum("met") / sum("of");
+        assert!(
+            (level.share() - share).abs() <= CALIBRATED,
+            "{level}: {share}"
+        );
     }
 }
 
@@ -141,11 +151,38 @@ const LEAST_DETECTED: f64 = 0.75;
 /// The share that reports state is no further from the measured one.
 const CALIBRATED: f64 = 0.03;
 
-fn set() -> &'static str {
-    match std::env::var_os("ASPERITY_SEALED") {
-        Some(_) => "sealed",
-        None => "open",
+fn sealed() -> bool {
+    std::env::var_os("ASPERITY_SEALED").is_some()
+}
+
+fn sets() -> &'static [&'static str] {
+    if sealed() {
+        &["sealed"]
+    } else {
+        &["open", "second"]
     }
+}
+
+/// The sets together, in the names of figures.
+fn name() -> &'static str {
+    if sealed() { "sealed" } else { "seen" }
+}
+
+/// Names in other orders, qualities and touchable things are those of `second` where a set has none.
+fn list(set: &str, file: &str) -> Vec<String> {
+    lines(if set == "sealed" { "second" } else { set }, file)
+}
+
+/// What holds of the sets: each claim with the prompts that it holds for, of all.
+fn scores() -> Vec<(&'static str, Vec<(String, bool)>)> {
+    let mut all = sets().iter().map(|set| score(set));
+    let mut scores = all.next().expect("a set");
+    for more in all {
+        for ((_, judged), (_, own)) in scores.iter_mut().zip(more) {
+            judged.extend(own);
+        }
+    }
+    scores
 }
 
 /// What holds of a set: each claim with the prompts that it holds for, of all.
@@ -170,7 +207,7 @@ fn score(set: &str) -> Vec<(&'static str, Vec<(String, bool)>)> {
     };
     let some = sized("every so many frames and names", 97, 1);
     let frames = lines(set, "frames.txt");
-    let pairs: Vec<(String, String)> = lines(set, "qualities.tsv")
+    let pairs: Vec<(String, String)> = list(set, "qualities.tsv")
         .iter()
         .filter_map(|line| line.split_once('\t'))
         .flat_map(|(said, bare)| {
@@ -181,7 +218,7 @@ fn score(set: &str) -> Vec<(&'static str, Vec<(String, bool)>)> {
         .step_by(some)
         .collect();
     let anchors = &PROMPTS.model().description().anchors;
-    let orders = lines(set, "orders.txt");
+    let orders = list(set, "orders.txt");
     let ordered: Vec<(String, String)> = anchors
         .iter()
         .zip(QUALITIES.iter().cycle())
@@ -200,7 +237,7 @@ fn score(set: &str) -> Vec<(&'static str, Vec<(String, bool)>)> {
         let judge = |(said, bare): &(String, String)| (said.clone(), same(said, bare));
         pairs.par_iter().map(judge).collect::<Vec<_>>()
     };
-    let things: Vec<String> = lines(set, "touchable.txt")
+    let things: Vec<String> = list(set, "touchable.txt")
         .into_iter()
         .step_by(some)
         .collect();
@@ -222,10 +259,8 @@ fn score(set: &str) -> Vec<(&'static str, Vec<(String, bool)>)> {
 
 #[test]
 fn a_sentence_feels_like_what_is_touched_in_it() {
-    let set = set();
-    let sealed = set == "sealed";
     let (mut missed, mut rights) = (Vec::new(), Vec::new());
-    for ((claim, judged), (_, share)) in score(set).into_iter().zip(LEAST_SHARES) {
+    for ((claim, judged), (_, share)) in scores().into_iter().zip(LEAST_SHARES) {
         let right = judged.iter().filter(|(_, holds)| *holds).count();
         println!("{claim}: {right} of {}", judged.len());
         rights.push([right, judged.len()]);
@@ -241,13 +276,13 @@ fn a_sentence_feels_like_what_is_touched_in_it() {
             println!("  {kind}: {right} of {of}");
         }
         // Of the sealed set, nothing but numbers is shown.
-        if !sealed {
+        if !sealed() {
             let wrong = judged.iter().filter(|(_, holds)| !holds);
             wrong
                 .take(10)
                 .for_each(|(text, _)| println!("  not: {text}"));
         }
-        if !sealed && right < least(share, judged.len()) {
+        if !sealed() && right < least(share, judged.len()) {
             missed.push(format!("{claim}: {right} of {}", judged.len()));
         }
     }
@@ -268,13 +303,13 @@ fn a_sentence_feels_like_what_is_touched_in_it() {
     let figures: Vec<(String, String)> = figures.collect();
     let figure = |n: usize| (figures[n].0.as_str(), figures[n].1.clone());
     figures::hold_at_full(
-        &format!("sentences_{set}"),
+        &format!("sentences_{}", name()),
         "-p asperity --test it a_sentence_feels",
         std::array::from_fn::<_, 10, _>(figure),
     );
 }
 
-/// Both sets are those that their writers left, before anything was fitted.
+/// The sets are those that their writers left, but for four sentences whose build is taught.
 #[test]
 fn the_sets_are_as_their_writers_left_them() {
     let listed = fs::read_to_string(folder().join("SHA256SUMS")).expect("the list");
@@ -287,5 +322,5 @@ fn the_sets_are_as_their_writers_left_them() {
             .collect();
         assert_eq!(found, hash, "{file}");
     }
-    assert_eq!(listed.lines().count(), 10);
+    assert_eq!(listed.lines().count(), 12);
 }

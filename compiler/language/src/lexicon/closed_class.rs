@@ -51,6 +51,11 @@ pub(crate) fn is_function(word: &str) -> bool {
     is(word, &["determiner", "auxiliary", "link", "place"])
 }
 
+/// Whether a word is a verb of being or having.
+pub(crate) fn is_auxiliary(word: &str) -> bool {
+    is(word, &["auxiliary"])
+}
+
 /// Whether what follows a word is a place, an owner, a time or a use.
 pub(crate) fn is_place(word: &str) -> bool {
     is(word, &["place"])

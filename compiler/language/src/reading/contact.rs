@@ -2,7 +2,10 @@
 
 use super::{
     Reader, Reading, Text,
-    group::{Group, is_adjective, is_content, is_felt, is_thing, one_thing, phrase_of},
+    group::{
+        Group, is_adjective, is_content, is_felt, is_thing, needs_owner, one_thing, phrase_of,
+    },
+    parts::is_owned,
     read,
     segment::{Class, Item},
 };
@@ -52,6 +55,14 @@ impl<T: WordVectors, S: WordStates> Reader<T, S> {
                     }
                 }
             }
+        }
+        // "the horse whose coat is sleek"
+        if needs_owner(&groups) {
+            let owners = tagged.iter().filter(|tagged| tagged.role == Role::Object);
+            let named = owners
+                .map(|tagged| &tagged.item)
+                .filter(|item| item.class == Class::Name);
+            groups.extend(named.map(|item| Group::new(vec![item.clone()], 0.0)));
         }
         // "bark without its roughness"; but "not soft, scratchy" is scratchy.
         if !groups.iter().any(Group::is_felt) {
@@ -116,12 +127,14 @@ fn together(tagged: &mut [Tagged]) {
         let named = |tagged: &Tagged| tagged.item.class == Class::Name && is_thing(&tagged.item);
         let more: Vec<usize> = match (thing, first) {
             (Some(thing), _) => {
+                let part = is_owned(&run[thing].item.text);
                 let felt = |n: &usize| {
                     let item = &run[*n].item;
                     let quality = match item.class {
                         Class::Touch => true,
                         Class::Name => is_adjective(item),
-                        _ => false,
+                        // "the dog's wiry coat"
+                        _ => part && item.text.ends_with("'s"),
                     };
                     let quality = *n < thing && quality;
                     quality || Grade::of(&item.text).is_some()

@@ -2,7 +2,7 @@
 
 use super::{
     parts,
-    segment::{Class, Item},
+    segment::{self, Class, Item},
 };
 use crate::{
     lexicon::{
@@ -145,10 +145,38 @@ fn is_denial(item: &Item) -> bool {
     item.class == Class::Denial
 }
 
+/// Groups with the qualities of a face as those of what has it: "gneiss, weathered face".
+fn of_one_face(mut groups: Vec<Group>) -> Vec<Group> {
+    let is_face = |head: &Item| parts::is_face(&head.text);
+    if groups.iter().filter_map(Group::head).all(is_face) {
+        return groups;
+    }
+    for group in &mut groups {
+        if group.head().is_some_and(is_face) {
+            let last = group.items.iter().rposition(is_thing);
+            last.map(|last| group.items.remove(last));
+        }
+    }
+    groups
+}
+
+/// Whether the one thing of groups is a part that needs its owner's name.
+pub(super) fn needs_owner(groups: &[Group]) -> bool {
+    let mut things = groups
+        .iter()
+        .flat_map(|group| &group.items)
+        .filter(|item| is_thing(item));
+    let part = things
+        .next()
+        .is_some_and(|thing| parts::is_owned(&thing.text));
+    part && things.next().is_none()
+}
+
 /// The groups of a sentence without all things but the surest, which stands last, behind its owner if it is a part.
 pub(super) fn one_thing(groups: Vec<Group>) -> Vec<Group> {
-    let (mut things, mut kept): (Vec<Group>, Vec<Group>) =
-        groups.into_iter().partition(|group| group.head().is_some());
+    let (mut things, mut kept): (Vec<Group>, Vec<Group>) = of_one_face(groups)
+        .into_iter()
+        .partition(|group| group.head().is_some());
     // With a name rather than without, and what is a material rather than what is of one; of equals, the last.
     let rank = |group: &Group| {
         let named = group.items.iter().any(|item| item.class == Class::Name);
@@ -202,13 +230,27 @@ fn divided(items: Vec<Item>) -> [Vec<Item>; 2] {
     [qualities.cloned().collect(), thing.to_vec()]
 }
 
-/// A group without the words of grammar at its ends, those inside that join nothing, and what stands between a quality and
-/// its thing and says nothing of touch: "tacky transparent vinyl".
+/// Whether a word before a name says nothing of touch: "pure fleece", "tacky transparent vinyl", "strap plastic".
+fn is_dull(items: &[Item], n: usize) -> bool {
+    let (item, next) = (&items[n], &items[n + 1]);
+    if next.class != Class::Name || is_adjective(item) || item.text.ends_with("'s") {
+        return false;
+    }
+    match item.class {
+        // What carries a material.
+        Class::Thing => substance(&next.text).is_some(),
+        class => {
+            let alone = n == 0 || items[n - 1].class == Class::Touch;
+            alone && (class == Class::Other || is_colour(&item.text))
+        }
+    }
+}
+
+/// A group without the words of grammar at its ends, those inside that join nothing, and what says nothing of touch.
 fn tidy(mut items: Vec<Item>) -> Vec<Item> {
-    for n in (1..items.len().max(1) - 1).rev() {
-        let dull = items[n].class == Class::Other || is_colour(&items[n].text);
-        let inside = items[n - 1].class == Class::Touch && items[n + 1].class == Class::Name;
-        if dull && inside && !is_adjective(&items[n]) {
+    items.retain(|item| !segment::is_adverb(item));
+    for n in (0..items.len().saturating_sub(1)).rev() {
+        if is_dull(&items, n) {
             items.remove(n);
         }
     }

@@ -10,9 +10,12 @@ use crate::{
 
 /// Parts that are as the whole is.
 const WHOLE: &[&str] = &[
-    "back", "body", "end", "head", "layer", "length", "lump", "middle", "piece", "point", "roll",
-    "sheet", "side", "slab", "square", "strip", "surface", "tip", "top",
+    "back", "body", "end", "face", "finish", "head", "layer", "length", "lump", "middle", "piece",
+    "point", "rim", "roll", "sheet", "side", "slab", "square", "strip", "surface", "tip", "top",
 ];
+
+/// Parts that are where the whole is touched.
+const FACES: &[&str] = &["back", "face", "finish", "rim", "side", "surface", "top"];
 
 /// Parts that are as their owner is, and need its name.
 const OWNED: &[&str] = &[
@@ -23,6 +26,11 @@ const OWNED: &[&str] = &[
 /// Whether a word names a part that needs its owner's name.
 pub(super) fn is_owned(word: &str) -> bool {
     is(OWNED, &singular(word))
+}
+
+/// Whether a word names a part where the whole is touched.
+pub(super) fn is_face(word: &str) -> bool {
+    is(FACES, &singular(word))
 }
 
 /// Items with the owner before a part that needs its name: "skin of a toad".

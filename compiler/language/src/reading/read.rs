@@ -9,7 +9,7 @@ use super::{
 use crate::{
     lexicon::{
         self,
-        closed_class::{is_colour, is_determiner},
+        closed_class::{is_auxiliary, is_colour, is_determiner},
     },
     phrase,
     words::grade::Grade,
@@ -50,6 +50,20 @@ pub(super) fn is_person(word: &str) -> bool {
         "i", "you", "he", "she", "we", "they", "me", "him", "us", "them", "who",
     ];
     PERSONS.contains(&word)
+}
+
+/// Whether a text is a question or a statement: no description of an object is.
+pub(super) fn is_clause(items: &[Item]) -> bool {
+    let is = |n: usize, words: &[&str]| {
+        items
+            .get(n)
+            .is_some_and(|item| words.contains(&item.text.as_str()))
+    };
+    let asks = is(0, &["how", "why"]) || (is(0, &["what"]) && is(1, &["a", "an", "the"]));
+    let states = |n: usize| {
+        is_auxiliary(&items[n].text) && !is(n.wrapping_sub(1), &["that", "which", "what", "who"])
+    };
+    asks || (0..items.len()).any(|n| items[n].class == Class::Break || states(n))
 }
 
 /// Words of content that are in a text, and not in what was read of it.

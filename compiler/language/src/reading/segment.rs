@@ -222,7 +222,7 @@ fn numbered(items: &mut Vec<Item>) {
 const NUMBER: &[&str] = &["no", "nr", "number", "grade", "size"];
 
 /// Whether a word of no list is an adverb.
-fn is_adverb(item: &Item) -> bool {
+pub(super) fn is_adverb(item: &Item) -> bool {
     const ADJECTIVES: &[&str] = &[
         "lovely", "friendly", "lively", "ugly", "early", "likely", "homely", "cuddly", "costly",
         "daily", "weekly", "family", "only", "silly",
