@@ -1,6 +1,6 @@
 //! The integration tests of this crate, one binary, so that they are linked once. A new file needs
 //! its line here; `.ci/check-tests` fails without it.
 
-#[path = "../../runtime/host/tests/fakes/mod.rs"]
+#[path = "../../host/tests/fakes/mod.rs"]
 mod fakes;
 mod faults;

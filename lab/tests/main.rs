@@ -4,7 +4,7 @@
 mod cases;
 mod command;
 mod device;
-#[path = "../../runtime/host/tests/fakes/mod.rs"]
+#[path = "../../host/tests/fakes/mod.rs"]
 mod fakes;
 mod pareto;
 mod record;

@@ -40,13 +40,13 @@ fn folder() -> PathBuf {
     folder
 }
 
-/// The shared library as `runtime/c/Makefile` links it, built once. Its folder.
+/// The shared library as `bindings/c/Makefile` links it, built once. Its folder.
 fn shared() -> &'static Path {
     static PATH: OnceLock<PathBuf> = OnceLock::new();
     PATH.get_or_init(|| {
         let folder = folder().join("shared");
         fs::create_dir_all(&folder).unwrap();
-        let map = root().join("runtime/c/asperity.map");
+        let map = root().join("bindings/c/asperity.map");
         succeeded(
             Command::new("cc")
                 .args(["-shared", "-Wl,-soname,libasperity.so.0"])
@@ -101,7 +101,7 @@ fn program(name: &str, flags: &[&str]) -> PathBuf {
                 .args(STRICT)
                 .args(flags)
                 .arg("-I")
-                .arg(root().join("runtime/c/include"))
+                .arg(root().join("bindings/c/include"))
                 .arg(root().join("tests/c").join(name).with_extension("c"))
                 .arg(library())
                 .args(["-lpthread", "-ldl", "-lm", "-Wl,-z,now", "-o"])
@@ -362,7 +362,7 @@ fn a_program_of_an_older_header_runs_with_this_library() {
         .map(|n| n.parse().unwrap())
         .collect();
     // If no struct had grown, the test would show nothing.
-    let header = fs::read_to_string(root().join("runtime/c/include/asperity.h")).unwrap();
+    let header = fs::read_to_string(root().join("bindings/c/include/asperity.h")).unwrap();
     assert!(header.contains("uint32_t arithmetic;") && header.contains("uint32_t surface;"));
     assert_eq!(sizes, [124, 44]);
 
@@ -386,7 +386,7 @@ fn functions(header: &str) -> Vec<&str> {
 
 #[test]
 fn the_shared_library_exports_the_functions_of_the_header_with_their_version() {
-    let header = fs::read_to_string(root().join("runtime/c/include/asperity.h")).unwrap();
+    let header = fs::read_to_string(root().join("bindings/c/include/asperity.h")).unwrap();
     let symbols = succeeded(
         Command::new("nm")
             .args(["--dynamic", "--defined-only", "--with-symbol-versions"])
@@ -432,7 +432,7 @@ fn no_call_takes_more_stack_than_documented() {
         println!("{function:34} {bytes:5}");
         assert!(*bytes <= STACK_LIMIT, "{function}: {bytes} bytes");
     }
-    let header = fs::read_to_string(root().join("runtime/c/include/asperity.h")).unwrap();
+    let header = fs::read_to_string(root().join("bindings/c/include/asperity.h")).unwrap();
     assert!(
         most.keys().copied().eq(functions(&header)),
         "a call is not measured"

@@ -107,7 +107,7 @@ fn a_c_array_is_compiled_without_a_warning_and_loaded_in_place() {
         succeeded(
             Command::new("cc")
                 .args([standard, "-Wall", "-Wextra", "-pedantic", "-Werror", "-I"])
-                .arg(root().join("runtime/c/include"))
+                .arg(root().join("bindings/c/include"))
                 .arg("-I")
                 .arg(&folder)
                 .arg(folder.join("main.c"))
@@ -183,7 +183,7 @@ fn a_rust_static_is_aligned_and_holds_the_bytes() {
 /// Claim: no name of the C face begins as the symbols of images do, so no image collides with it.
 #[test]
 fn the_names_of_images_are_theirs_alone() {
-    let include = root().join("runtime/c/include");
+    let include = root().join("bindings/c/include");
     for header in ["asperity.h", "asperity.hpp", "asperity_base.hpp"] {
         let text = fs::read_to_string(include.join(header)).unwrap();
         assert!(

@@ -8,7 +8,9 @@ use std::{
 };
 
 /// Folders of the product.
-const PRODUCT: [&str; 4] = ["compiler", "formats", "lab", "runtime"];
+const PRODUCT: [&str; 7] = [
+    "bindings", "compiler", "formats", "host", "lab", "runtime", "studio",
+];
 
 /// The package of a source file.
 fn package(file: &Path) -> String {

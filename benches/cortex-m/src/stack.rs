@@ -16,7 +16,7 @@ const LIMIT: u64 = 3072;
 
 /// The functions that the header of the C face declares, without `asperity_`.
 fn functions() -> Result<BTreeSet<String>> {
-    let header = fs::read_to_string(home().join("../../runtime/c/include/asperity.h"))?;
+    let header = fs::read_to_string(home().join("../../bindings/c/include/asperity.h"))?;
     let words = header.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_' || c == '('));
     Ok(words
         .filter_map(|word| word.split_once('(')?.0.strip_prefix("asperity_"))

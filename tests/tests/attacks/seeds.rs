@@ -156,10 +156,10 @@ const ROWS: &str =
 const COUNTS: &str = "factor,name,instructions\norder,ar 20,2100\narithmetic,fixed,1900.5\n";
 const DEVICE: &str = include_str!("../../../device-sim/devices/touch.toml");
 const GRIP: &str = include_str!("../../../device-sim/grips/light.toml");
-const IDS: &str = include_str!("../../../runtime/host/src/device/usb/ids.toml");
+const IDS: &str = include_str!("../../../host/src/device/usb/ids.toml");
 /// A device's profile, with a filter.
 const PROFILE: &str = concat!(
-    include_str!("../../../runtime/host/devices/touch.toml"),
+    include_str!("../../../host/devices/touch.toml"),
     "\n[compensation]\nrate_hz = 1000.0\ntaps = [1.25, -0.3, 0.05]\n"
 );
 

@@ -33,7 +33,7 @@ pub(crate) struct Studio {
     #[arg(long, value_name = "DIR", requires = "collection", conflicts_with_all = ["port", "no_open"])]
     pub(crate) export: Option<PathBuf>,
     /// With --export: put this compiler into the page, so that it needs no server for prompts, edits and files;
-    /// `compiler/studio/build-module` builds it
+    /// `studio/build-module` builds it
     #[arg(long, value_name = "FILE.wasm", requires = "export")]
     pub(crate) compiler: Option<PathBuf>,
 }

@@ -140,7 +140,7 @@ impl Kind {
             Self::Vocabulary => "give the vocabulary that belongs to the text encoder",
             Self::DiffusionConfig => "give a folder that `optimum-cli export onnx` wrote",
             Self::DiffusionNetwork => "leave --diffusion-backend out, for ONNX Runtime",
-            Self::StudioModule => "give the file that `compiler/studio/build-module` wrote",
+            Self::StudioModule => "give the file that `studio/build-module` wrote",
         }
     }
 }
