@@ -1,7 +1,7 @@
 //! Friction: μ with its spread, and how it depends on speed and load if the data ask for it.
 
 use crate::{
-    autoregression::solve,
+    least_squares::solve,
     signal::quantile::{RMS_OF_MEDIAN, mean, median, quantile},
     timeline::{RATE_HZ, Timeline},
 };

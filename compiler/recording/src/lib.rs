@@ -52,17 +52,13 @@
 //! | align | [`timeline`] | all channels on one clock at 1 kHz |
 //! | check | [`check`] | a verdict for each channel, and what to do about it |
 //! | resonance | [`resonance`] | that of tool and sensor, by taps in free air, and the acceleration without it |
-//! | one axis | [`axes`] | three axes as one signal with their spectrum |
 //! | segments | [`segments`] | stretches of steady speed and force, and of changing ones |
-//! | models | [`autoregression`] | AR and ARMA models of a stretch, by several methods |
 //! | friction | [`friction`] | μ with its spread, and how it depends on speed and load |
 //! | taps | [`impact`] | impacts, their speeds, a mean transient for each speed |
 //!
 //! What must stay absent: textures, assets, the learned model, pictures.
 #![forbid(unsafe_code)]
 
-pub mod autoregression;
-pub mod axes;
 pub mod channel;
 pub mod check;
 pub mod description;
@@ -70,6 +66,7 @@ mod error;
 mod file;
 pub mod friction;
 pub mod impact;
+mod least_squares;
 pub mod reader;
 pub mod resonance;
 pub mod segments;

@@ -2,7 +2,7 @@
 
 use super::{TAP_RATE_HZ, TAP_SAMPLES};
 use crate::{
-    autoregression::solve,
+    least_squares::solve,
     signal::{
         quantile::{RMS_OF_MEDIAN, median},
         resample::{Clock, resample},

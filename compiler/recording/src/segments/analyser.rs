@@ -46,7 +46,8 @@ impl Analyser {
         spectrum.iter().map(|x| x.norm_sqr()).collect()
     }
 
-    /// Autocorrelation and power of a stretch, summed over its axes as DFT321 does.
+    /// Autocorrelation and power of a stretch, summed over its axes: the power of DFT321 (Landin, Romano,
+    /// McMahan, Kuchenbecker, "Dimensional reduction of high-frequency accelerations for haptic rendering", 2010).
     pub(super) fn spectrum(
         &self,
         axes: &[Vec<f64>],

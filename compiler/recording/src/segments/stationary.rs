@@ -1,11 +1,8 @@
 //! Whether the energy of a stretch is what its speed and load say: a knock or a landing is no texture.
 
 use super::Segment;
-use crate::{
-    autoregression::{levinson, solve},
-    signal::quantile::mean,
-    timeline::Timeline,
-};
+use crate::{least_squares::solve, signal::quantile::mean, timeline::Timeline};
+use asperity_texture::signal::levinson;
 
 /// Parts of a stretch whose energies are compared.
 pub(super) const PARTS: usize = 4;
@@ -90,7 +87,7 @@ pub(super) fn whitener(segments: &[Segment]) -> Vec<f64> {
     }
     if mean[0] > 0.0 {
         mean[0] *= 1.0 + 1e-6;
-        levinson(&mean).a
+        levinson::recursion(&mean).0
     } else {
         vec![1.0]
     }

@@ -7,8 +7,6 @@ use super::{
 use crate::pipeline::Clock;
 use asperity_recording::{
     RecordingError,
-    autoregression::{self, Score},
-    axes,
     check::{self, Checked},
     description::Quantity,
     friction::{self, Friction},
@@ -22,8 +20,6 @@ use std::{path::Path, time::Duration};
 
 /// Least time of strokes, s, and stretches.
 const LEAST_STROKES: (f64, usize) = (3.0, 8);
-/// Order and number of stretches with which methods are compared.
-const COMPARED: (usize, usize) = (16, 40);
 
 /// A step and the time that it took.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,12 +41,8 @@ pub struct Analysis {
     pub timeline: Timeline,
     /// Taps in free air and the resonances that they show, which were compensated.
     pub free_air: FreeAir,
-    /// Part of the vibration that lies along one direction, 0..=1: what a principal component keeps.
-    pub principal_share: f64,
     /// The stretches of its strokes.
     pub strokes: Segments,
-    /// How well methods predict, of the vibration as one axis.
-    pub methods: Vec<Score>,
     /// The grid.
     pub fit: GridFit,
     /// Friction, if forces along the surface were recorded.
@@ -118,13 +110,9 @@ pub fn analyse(folder: &Path, force: bool, clock: Clock) -> Result<Analysis, Rec
         resonance::compensate(&mut recording, &mut timeline, late_s, &free_air);
         free_air
     });
-    let (vibration, one_axis, principal_share) = steps.run("one axis", || {
-        let vibration = segments::vibration(&timeline);
-        let one_axis = axes::dft321(&vibration);
-        let (_, share) = axes::principal(&vibration);
-        (vibration, one_axis, share)
+    let strokes = steps.run("segments", || {
+        segments::segments(&timeline, &segments::vibration(&timeline))
     });
-    let strokes = steps.run("segments", || segments::segments(&timeline, &vibration));
     let (least_s, least) = LEAST_STROKES;
     let too_few = || RecordingFailure::TooFewStrokes {
         folder: folder.to_owned(),
@@ -135,15 +123,6 @@ pub fn analyse(folder: &Path, force: bool, clock: Clock) -> Result<Analysis, Rec
     if strokes.covered_s() < least_s || strokes.segments.len() < least {
         return Err(too_few());
     }
-    let methods = steps.run("models", || {
-        let every = strokes.segments.len().div_ceil(COMPARED.1);
-        let stretches = strokes
-            .segments
-            .iter()
-            .step_by(every)
-            .map(|s| &one_axis[s.start..s.start + s.length]);
-        autoregression::compare(stretches, COMPARED.0)
-    });
     let fit = steps
         .run("grid", || grid::fit(&strokes))
         .ok_or_else(too_few)?;
@@ -159,9 +138,7 @@ pub fn analyse(folder: &Path, force: bool, clock: Clock) -> Result<Analysis, Rec
         checked,
         timeline,
         free_air,
-        principal_share,
         strokes,
-        methods,
         fit,
         friction,
         impacts,

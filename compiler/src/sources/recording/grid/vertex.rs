@@ -1,6 +1,5 @@
 //! From an autocorrelation to the model of a vertex.
 
-use asperity_recording::autoregression;
 use asperity_texture::{
     model::{GridVertex, Numerator, VertexKind},
     signal::{levinson, lsf, reflection, spectrum::squared_magnitude},
@@ -40,15 +39,15 @@ pub(super) fn vertex(
     let mut raised = lags.to_vec();
     raised[0] *= 1.0 + FLOOR;
     let (monic, sigma) = if form.numerator == Numerator::None {
-        let model = autoregression::levinson(&raised[..=form.order]);
-        (model.a, model.variance.sqrt())
+        let (monic, variance) = levinson::recursion(&raised[..=form.order]);
+        (monic, variance.sqrt())
     } else {
-        let all = autoregression::levinson(&raised);
+        let (all, variance) = levinson::recursion(&raised);
         let omega = |n: usize| (n as f64 + 0.5) * PI / POINTS as f64;
         let shaped: Vec<f64> = (0..POINTS)
             .map(|n| {
-                all.variance
-                    / squared_magnitude(&all.a, omega(n))
+                variance
+                    / squared_magnitude(&all, omega(n))
                     / squared_magnitude(&[1.0, 1.0], omega(n)).max(LEAST_ZERO)
             })
             .collect();
