@@ -15,7 +15,7 @@ use asperity::{
     raise::raise,
     reduce::Fidelity,
     scene::{self, Budget, Description},
-    sources::{Kind, Operand, Registry, Source, Sourced, Tools, key::Parts},
+    sources::{Kind, ManifestSource, Operand, Registry, Source, Sourced, Tools, key::Parts},
     spectrum::ArmaModel,
     triangulate,
 };
@@ -51,11 +51,7 @@ const KIND: Kind = Kind {
 };
 
 impl Source for Grating {
-    fn key(&self, parts: Parts, _: &Tools<'_>) -> Result<Parts, Failure> {
-        Ok(parts.number(self.0))
-    }
-
-    fn read(
+    fn model(
         &self,
         _: &Request,
         _: &Tools<'_>,
@@ -64,6 +60,12 @@ impl Source for Grating {
         Ok(Sourced::new(
             pipeline.run(Pass::Generate, || self.texture()),
         ))
+    }
+}
+
+impl ManifestSource for Grating {
+    fn key(&self, parts: Parts, _: &Tools<'_>) -> Result<Parts, Failure> {
+        Ok(parts.number(self.0))
     }
 }
 

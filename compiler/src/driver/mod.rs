@@ -73,7 +73,7 @@ pub fn compile(
 ) -> Result<Compiled, Failure> {
     tools.go_on()?;
     let mut pipeline = Pipeline::timed(tools.clock);
-    let mut sourced = source.read(request, tools, &mut pipeline)?;
+    let mut sourced = source.model(request, tools, &mut pipeline)?;
     if let Some(asset) = sourced.asset.take() {
         if request
             .conversion(sourced.texture.grid.sample_rate_hz)

@@ -159,7 +159,7 @@ impl<'a> Maker<'a> {
         editor: &LatentEditor<'_>,
     ) -> Result<FromLatents, Failure> {
         let request = &entry.options.request;
-        let sourced = source.read(request, &self.tools(), &mut Pipeline::default())?;
+        let sourced = source.model(request, &self.tools(), &mut Pipeline::default())?;
         let mut texture = sourced.texture;
         let memory = match &sourced.asset {
             Some(bytes) => remembered(&Asset::parse(bytes).map_err(EditError::from)?)?,

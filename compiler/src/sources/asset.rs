@@ -1,7 +1,7 @@
 //! An asset, or a texture of a library, taken as it is.
 
 use super::{
-    Kind, Operand, Source, Sourced, Tools,
+    Kind, ManifestSource, Operand, Source, Sourced, Tools,
     key::{Key, Parts},
     latents::EditError,
     libraries::OpenLibraries,
@@ -55,13 +55,7 @@ impl Source for AssetFile {
         vec![self.file.clone()]
     }
 
-    fn key(&self, parts: Parts, tools: &Tools<'_>) -> Result<Parts, Failure> {
-        let name = self.file.file_name().unwrap_or_default();
-        let content = Key::of(&self.bytes(tools)?);
-        Ok(parts.text(&name.to_string_lossy()).part(content.bytes()))
-    }
-
-    fn read(
+    fn model(
         &self,
         _: &Request,
         tools: &Tools<'_>,
@@ -77,5 +71,13 @@ impl Source for AssetFile {
             asset: Some(bytes),
             ..Sourced::new(texture)
         })
+    }
+}
+
+impl ManifestSource for AssetFile {
+    fn key(&self, parts: Parts, tools: &Tools<'_>) -> Result<Parts, Failure> {
+        let name = self.file.file_name().unwrap_or_default();
+        let content = Key::of(&self.bytes(tools)?);
+        Ok(parts.text(&name.to_string_lossy()).part(content.bytes()))
     }
 }

@@ -64,7 +64,7 @@ const MU: f64 = 0.72;
 pub struct Builtin;
 
 impl Source for Builtin {
-    fn read(
+    fn model(
         &self,
         _: &Request,
         _: &Tools<'_>,

@@ -1,7 +1,7 @@
 //! Files of other tools; the kind is detected from the file.
 
 use super::{
-    Source,
+    ManifestSource,
     effects::{self, Effects},
     hatt::Hatt,
     kind::{Kind, Operand, Stated},
@@ -88,7 +88,7 @@ impl Imported {
 
     /// The source that a file is.
     #[must_use]
-    pub fn source(self, file: PathBuf) -> Arc<dyn Source> {
+    pub fn source(self, file: PathBuf) -> Arc<dyn ManifestSource> {
         match self {
             Self::Hatt => Arc::new(Hatt::new(file)),
             Self::Model => Arc::new(ModelFile { file }),
@@ -114,7 +114,7 @@ impl Imported {
     }
 }
 
-fn open(stated: &Stated<'_>) -> Result<Arc<dyn Source>, Failure> {
+fn open(stated: &Stated<'_>) -> Result<Arc<dyn ManifestSource>, Failure> {
     let file = stated.path.to_owned();
     let found = input::format_of(&file).map_err(|problem| InputError {
         file: file.clone(),

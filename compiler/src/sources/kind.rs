@@ -1,6 +1,6 @@
 //! A kind of source, as manifests name it.
 
-use super::Source;
+use super::ManifestSource;
 use crate::passes::reduce::Fidelity;
 use asperity_io::diagnostic::Failure;
 use std::{path::Path, sync::Arc};
@@ -13,7 +13,7 @@ pub struct Kind {
     /// What its value is.
     pub operand: Operand,
     /// The source of a value.
-    pub open: fn(&Stated<'_>) -> Result<Arc<dyn Source>, Failure>,
+    pub open: fn(&Stated<'_>) -> Result<Arc<dyn ManifestSource>, Failure>,
     /// Keys of a texture that do not go with it: `texture`, `seed`, `edit` and other options.
     pub refuses: &'static [&'static str],
     /// How much is kept unless the manifest says so.

@@ -62,9 +62,9 @@ use std::{
 };
 use thiserror::Error;
 
-/// What a texture is made of. It reads and models; [`driver::compile`](crate::driver::compile) does
+/// What a texture is made of. [`driver::compile`](crate::driver::compile) does
 /// what is the same for all of them.
-pub trait Source: fmt::Debug + Send + Sync {
+pub trait Source: Send + Sync {
     /// What a message begins with if its texture does not pass: mostly its file.
     fn origin(&self) -> String {
         String::new()
@@ -85,34 +85,27 @@ pub trait Source: fmt::Debug + Send + Sync {
         None
     }
 
-    /// Adds what decides its texture besides the request and the model, so that a cache tells it
-    /// from others: the names and contents of its [`inputs`](Self::inputs), or of a source without
-    /// files all its fields. One that has both says it itself.
-    ///
-    /// # Errors
-    /// Why a file cannot be read.
-    fn key(&self, parts: Parts, tools: &Tools<'_>) -> Result<Parts, Failure> {
-        let _ = tools;
-        let inputs = self.inputs();
-        if inputs.is_empty() {
-            return Ok(parts.text(&format!("{self:?}")));
-        }
-        Ok(inputs
-            .iter()
-            .try_fold(parts, |parts, file| parts.stream(file))?)
-    }
-
     /// The texture, and what there is to know of it. Passes of its own are run, and so timed, by
     /// `pipeline`.
     ///
     /// # Errors
     /// Why there is no texture, which names its file and field.
-    fn read(
+    fn model(
         &self,
         request: &Request,
         tools: &Tools<'_>,
         pipeline: &mut Pipeline,
     ) -> Result<Sourced, Failure>;
+}
+
+/// A source that manifests can name, whose textures are cached.
+pub trait ManifestSource: Source + fmt::Debug {
+    /// Adds what decides its texture besides the request and the model, so that the cache tells it
+    /// from others: the names and contents of its files, and its options.
+    ///
+    /// # Errors
+    /// Why a file cannot be read.
+    fn key(&self, parts: Parts, tools: &Tools<'_>) -> Result<Parts, Failure>;
 }
 
 /// What sources may use besides their files.
@@ -249,7 +242,7 @@ impl Sourced {
 
 /// A texture at hand is a source, too.
 impl Source for Sourced {
-    fn read(&self, _: &Request, _: &Tools<'_>, _: &mut Pipeline) -> Result<Sourced, Failure> {
+    fn model(&self, _: &Request, _: &Tools<'_>, _: &mut Pipeline) -> Result<Sourced, Failure> {
         Ok(self.clone())
     }
 }

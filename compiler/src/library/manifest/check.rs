@@ -10,7 +10,7 @@ use super::{
 use crate::{
     passes::reduce::Fidelity,
     pipeline::Request,
-    sources::{self, Kind, Operand, Registry, Source},
+    sources::{self, Kind, ManifestSource, Operand, Registry},
     views::preview,
 };
 use asperity_formats::limits::MAX_NAME_BYTES;
@@ -57,7 +57,7 @@ pub(super) struct Draft {
 pub(super) enum DraftOrigin {
     Source {
         key: &'static str,
-        source: Arc<dyn Source>,
+        source: Arc<dyn ManifestSource>,
     },
     Of(Reference),
     Blend {

@@ -2,7 +2,7 @@
 
 use crate::{
     pipeline::Request,
-    sources::{Source, latents::Edit},
+    sources::{ManifestSource, latents::Edit},
 };
 use std::{fmt, path::Path, sync::Arc};
 
@@ -42,7 +42,7 @@ pub enum Origin {
         /// The key that names it.
         key: &'static str,
         /// The source.
-        source: Arc<dyn Source>,
+        source: Arc<dyn ManifestSource>,
     },
     /// Another texture, to be edited.
     Of(usize),

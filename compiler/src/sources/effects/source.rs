@@ -10,7 +10,7 @@ use crate::{
     learned::edges,
     passes::triangulate,
     pipeline::{Pass, Pipeline, Request, Ringing},
-    sources::{Source, Sourced, Tools, key::Parts},
+    sources::{ManifestSource, Source, Sourced, Tools, key::Parts},
 };
 use asperity_formats::limits::MAX_NAME_BYTES;
 use asperity_io::{
@@ -125,16 +125,8 @@ impl Source for Effects {
         vec![self.file.clone()]
     }
 
-    fn key(&self, parts: Parts, _: &Tools<'_>) -> Result<Parts, Failure> {
-        let options = format!("{:?}", self.options);
-        Ok(parts
-            .text(self.kind.name())
-            .text(&options)
-            .file(&self.file, input::Kind::Effects)?)
-    }
-
     /// Reads, plays and models the file.
-    fn read(
+    fn model(
         &self,
         request: &Request,
         tools: &Tools<'_>,
@@ -171,6 +163,16 @@ impl Source for Effects {
             warnings,
             ..Sourced::new(whole)
         })
+    }
+}
+
+impl ManifestSource for Effects {
+    fn key(&self, parts: Parts, _: &Tools<'_>) -> Result<Parts, Failure> {
+        let options = format!("{:?}", self.options);
+        Ok(parts
+            .text(self.kind.name())
+            .text(&options)
+            .file(&self.file, input::Kind::Effects)?)
     }
 }
 

@@ -9,7 +9,7 @@ use crate::{
     compiled::{Compiled, ErrorReference},
     learned::{LearnedModel, ModelError, complete},
     pipeline::{Pass, Pipeline, Request},
-    sources::{Findings, Source, Sourced, Tools, key::Parts},
+    sources::{Findings, ManifestSource, Source, Sourced, Tools, key::Parts},
 };
 use asperity_io::{
     diagnostic::{Diagnostic, Failure},
@@ -114,12 +114,7 @@ impl Source for Hatt {
         self.complete_taps
     }
 
-    fn key(&self, parts: Parts, _: &Tools<'_>) -> Result<Parts, Failure> {
-        let parts = parts.part(&[self.complete_taps.into()]);
-        Ok(parts.file(&self.file, Kind::Hatt)?)
-    }
-
-    fn read(
+    fn model(
         &self,
         _: &Request,
         tools: &Tools<'_>,
@@ -143,6 +138,13 @@ impl Source for Hatt {
             findings: Some(Arc::new(recomputed)),
             ..Sourced::new(texture)
         })
+    }
+}
+
+impl ManifestSource for Hatt {
+    fn key(&self, parts: Parts, _: &Tools<'_>) -> Result<Parts, Failure> {
+        let parts = parts.part(&[self.complete_taps.into()]);
+        Ok(parts.file(&self.file, Kind::Hatt)?)
     }
 }
 

@@ -149,7 +149,7 @@ impl FromLatents {
 }
 
 impl Source for FromLatents {
-    fn read(
+    fn model(
         &self,
         _: &Request,
         tools: &Tools<'_>,

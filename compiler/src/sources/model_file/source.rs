@@ -4,7 +4,7 @@ use super::{read::read_with, scale};
 use crate::{
     compiled::ErrorReference,
     pipeline::{Pass, Pipeline, Request},
-    sources::{Source, Sourced, Tools, key::Parts},
+    sources::{ManifestSource, Source, Sourced, Tools, key::Parts},
 };
 use asperity_io::diagnostic::Failure;
 use asperity_io::input::Kind;
@@ -26,11 +26,7 @@ impl Source for ModelFile {
         vec![self.file.clone()]
     }
 
-    fn key(&self, parts: Parts, _: &Tools<'_>) -> Result<Parts, Failure> {
-        Ok(parts.file(&self.file, Kind::Model)?)
-    }
-
-    fn read(
+    fn model(
         &self,
         _: &Request,
         tools: &Tools<'_>,
@@ -48,5 +44,11 @@ impl Source for ModelFile {
             truth: Some(ErrorReference::Texture),
             ..Sourced::new(texture)
         })
+    }
+}
+
+impl ManifestSource for ModelFile {
+    fn key(&self, parts: Parts, _: &Tools<'_>) -> Result<Parts, Failure> {
+        Ok(parts.file(&self.file, Kind::Model)?)
     }
 }

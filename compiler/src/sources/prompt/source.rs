@@ -4,7 +4,7 @@ use super::check;
 use crate::{
     passes::reduce::Fidelity,
     pipeline::{Pipeline, Request},
-    sources::{Kind, Operand, Source, Sourced, Tools, key::Parts},
+    sources::{Kind, ManifestSource, Operand, Source, Sourced, Tools, key::Parts},
 };
 use asperity_io::diagnostic::Failure;
 use std::sync::Arc;
@@ -56,11 +56,7 @@ impl Source for Prompt {
         Some(&self.text)
     }
 
-    fn key(&self, parts: Parts, _: &Tools<'_>) -> Result<Parts, Failure> {
-        Ok(parts.text(&self.text).part(&self.seed.to_le_bytes()))
-    }
-
-    fn read(
+    fn model(
         &self,
         _: &Request,
         tools: &Tools<'_>,
@@ -75,5 +71,11 @@ impl Source for Prompt {
             sourced.picture = Some(png.clone());
         }
         Ok(sourced)
+    }
+}
+
+impl ManifestSource for Prompt {
+    fn key(&self, parts: Parts, _: &Tools<'_>) -> Result<Parts, Failure> {
+        Ok(parts.text(&self.text).part(&self.seed.to_le_bytes()))
     }
 }

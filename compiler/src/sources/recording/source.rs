@@ -11,7 +11,7 @@ use crate::{
     compiled::{Compiled, ErrorReference},
     passes::reduce::Fidelity,
     pipeline::{Pass, Pipeline, Request, Ringing},
-    sources::{Findings, Kind, Operand, Source, Sourced, Tools},
+    sources::{Findings, Kind, ManifestSource, Operand, Source, Sourced, Tools, key},
 };
 use asperity_io::diagnostic::Failure;
 use asperity_plot::PlotError;
@@ -61,7 +61,7 @@ impl Source for RecordingFolder {
         files
     }
 
-    fn read(
+    fn model(
         &self,
         _: &Request,
         tools: &Tools<'_>,
@@ -94,6 +94,14 @@ impl Source for RecordingFolder {
             })),
             ..Sourced::new(texture)
         })
+    }
+}
+
+impl ManifestSource for RecordingFolder {
+    fn key(&self, parts: key::Parts, _: &Tools<'_>) -> Result<key::Parts, Failure> {
+        let parts = parts.part(&[self.force.into()]);
+        let mut files = self.inputs().into_iter();
+        Ok(files.try_fold(parts, |parts, file| parts.stream(&file))?)
     }
 }
 
