@@ -101,7 +101,7 @@ pub enum Ringing {
 }
 
 /// What an asset holds beside its texture.
-pub(crate) struct Beside<'a> {
+pub(crate) struct Attachments<'a> {
     /// A picture in the place of a preview.
     pub(crate) picture: Option<&'a [u8]>,
     pub(crate) memory: Option<&'a Memory>,
@@ -146,19 +146,19 @@ impl Pipeline {
         mut whole: TextureModel,
         request: &Request,
         ringing: Ringing,
-        beside: &Beside<'_>,
+        attachments: &Attachments<'_>,
     ) -> Result<Passed, PipelineError> {
         whole.provenance.fidelity = request.fidelity.to_string();
         whole.grid = self.converted(whole.grid, request)?;
         if ringing == Ringing::Refused {
-            return self.attempt(whole, 0.0, request, beside);
+            return self.attempt(whole, 0.0, request, attachments);
         }
-        let mut result = self.attempt(whole.clone(), 0.0, request, beside);
+        let mut result = self.attempt(whole.clone(), 0.0, request, attachments);
         for fraction in STABILISED {
             match &result {
                 Err(error) if error.rings() => {
                     let stabilised = self.stabilise(&whole, fraction);
-                    result = self.attempt(stabilised, fraction, request, beside);
+                    result = self.attempt(stabilised, fraction, request, attachments);
                 }
                 _ => break,
             }
@@ -171,20 +171,20 @@ impl Pipeline {
         whole: TextureModel,
         stabilised: f64,
         request: &Request,
-        beside: &Beside<'_>,
+        attachments: &Attachments<'_>,
     ) -> Result<Passed, PipelineError> {
         let Reduction {
             mut texture,
             report,
         } = self.reduce(&whole, request.fidelity);
         self.run(Pass::Ceiling, || ceiling::limit(&mut texture));
-        let preview = match (beside.picture, request.preview_px) {
+        let preview = match (attachments.picture, request.preview_px) {
             (Some(png), _) => Some(png.to_owned()),
             (None, Some(size_px)) => Some(self.preview(&texture, size_px)?),
             (None, None) => None,
         };
         let mut lowered = self.lower(&texture, preview.as_deref())?;
-        if let Some(memory) = beside.memory {
+        if let Some(memory) = attachments.memory {
             let remembering = self.run(Pass::Lower, || remember(&lowered.bytes, memory));
             lowered.set_bytes(remembering.map_err(LowerError::from)?)?;
         }

@@ -15,7 +15,7 @@ use asperity::{
     raise::raise,
     reduce::Fidelity,
     scene::{self, Budget, Description},
-    sources::{Kind, ManifestSource, Operand, Registry, Source, Sourced, Tools, key::Parts},
+    sources::{Kind, ManifestSource, Operand, Registry, Source, SourceOutput, Tools, key::Parts},
     spectrum::ArmaModel,
     triangulate,
 };
@@ -56,8 +56,8 @@ impl Source for Grating {
         _: &Request,
         _: &Tools<'_>,
         pipeline: &mut Pipeline,
-    ) -> Result<Sourced, Failure> {
-        Ok(Sourced::new(
+    ) -> Result<SourceOutput, Failure> {
+        Ok(SourceOutput::new(
             pipeline.run(Pass::Generate, || self.texture()),
         ))
     }

@@ -31,19 +31,19 @@ fn main() {
 
 /// ns a tick.
 fn round() -> f64 {
-    let (mut outlet, mut inlet) = queues(TICKS as usize);
+    let (mut record_writer, mut record_reader) = queues(TICKS as usize);
     let mut record = record();
     let clock = Monotonic::default();
     let reader = thread::spawn(move || {
         let mut taken = 0;
-        while !inlet.is_over() {
-            while let Some(record) = inlet.record() {
+        while !record_reader.is_over() {
+            while let Some(record) = record_reader.record() {
                 taken += 1;
                 black_box(record);
             }
             thread::yield_now();
         }
-        assert_eq!(inlet.lost(), 0);
+        assert_eq!(record_reader.lost(), 0);
         taken
     });
     let began = Instant::now();
@@ -52,10 +52,10 @@ fn round() -> f64 {
         record.times.read_ns = clock.now_ns();
         record.times.computed_ns = clock.now_ns();
         record.times.written_ns = clock.now_ns();
-        outlet.tick(black_box(&record));
+        record_writer.tick(black_box(&record));
     }
     let ns = began.elapsed().as_nanos() as f64 / f64::from(TICKS);
-    drop(outlet);
+    drop(record_writer);
     let taken: u32 = reader.join().expect("the reader does not panic");
     assert_eq!(taken, TICKS);
     ns

@@ -6,7 +6,7 @@ mod support;
 
 use asperity_host::device::{Description, Device, DeviceError, Reading};
 use asperity_host::servo::privileges::Wanted;
-use asperity_host::servo::{Monotonic, Played, Servo, Settings, Start, queues};
+use asperity_host::servo::{Monotonic, Servo, Settings, Start, SwappableTexture, queues};
 use asperity_runtime::{Exchange, HostTexture};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -112,14 +112,14 @@ fn ticks_faults_exchanges_and_full_queues_allocate_nothing() {
         calls_since: AtomicU64::new(u64::MAX),
     };
     // Room for a few records alone, so that most are lost.
-    let (outlet, mut inlet) = queues(16);
+    let (record_writer, mut record_reader) = queues(16);
     let bytes = include_bytes!("../../runtime/tests/data/builtin-v1.asp");
     let asset = asperity_formats::Asset::parse(bytes).expect("a committed asset");
     let report = std::thread::scope(|scope| {
         let start = Start {
             device: &mut device,
-            render: Played::new(&renderer, player),
-            observer: outlet,
+            render: SwappableTexture::new(&renderer, player),
+            observer: record_writer,
             settings: Settings::at(10_000),
             clock: Monotonic::spinning(Duration::from_micros(20)),
             wanted: Wanted::NOTHING,
@@ -136,7 +136,7 @@ fn ticks_faults_exchanges_and_full_queues_allocate_nothing() {
         servo.join().expect("it does not panic")
     });
     assert!(report.ticks > 0 && report.ended_without_force);
-    assert!(inlet.lost() > 0 && inlet.record().is_some());
+    assert!(record_reader.lost() > 0 && record_reader.record().is_some());
     assert!(device.reads >= READS);
     assert_eq!(device.calls_since.load(Relaxed), 0);
 }

@@ -5,8 +5,8 @@ use crate::support::{Act, Kept, Scripted, length, texture};
 use asperity_formats::Library;
 use asperity_host::device::DeviceError;
 use asperity_host::servo::{
-    End, Event, InScene, Observer as _, Played, Render as _, Report, ServoLoop, Settings,
-    SettingsError, SingleTexture, Virtual, queues,
+    End, Event, Observer as _, Render as _, Report, SceneRender, ServoLoop, Settings,
+    SettingsError, SingleTexture, SwappableTexture, Virtual, queues,
 };
 use asperity_runtime::{Exchange, Flags, HostScene, HostTexture, Sample, SceneState, State};
 use std::ops::Range;
@@ -159,12 +159,15 @@ fn a_loop_has_the_configuration_of_its_renderer() {
         state: State::new(1),
     };
     assert_eq!(single.config(), renderer.config());
-    assert_eq!(Played::new(&renderer, player).config(), renderer.config());
+    assert_eq!(
+        SwappableTexture::new(&renderer, player).config(),
+        renderer.config()
+    );
     let library = include_bytes!("../../formats/tests/data/scene-v2.aspl");
     let library = Library::parse(library).unwrap();
     let mut slots = vec![HostTexture::EMPTY; library.index().len()];
     let scene = HostScene::load(&library, renderer.config(), &mut slots).unwrap();
-    let in_scene = InScene {
+    let in_scene = SceneRender {
         renderer: &renderer,
         scene: &scene,
         state: SceneState::new(1),
@@ -179,7 +182,7 @@ fn every_exchange_is_counted_once() {
     let [mut a, mut b] = [(); 2].map(|()| Box::new(HostTexture::new()));
     let mut exchange = Exchange::new();
     let (mut preparer, player) = exchange.split(&mut playing, [&mut a, &mut b], 1);
-    let mut played = Played::new(&renderer, player);
+    let mut played = SwappableTexture::new(&renderer, player);
     let asset = include_bytes!("../../runtime/tests/data/builtin-v1.asp");
     let asset = asperity_formats::Asset::parse(asset).unwrap();
     let mut counted = Vec::new();
@@ -256,15 +259,15 @@ fn a_slow_reader_loses_records_and_never_a_tick() {
         texture: &texture,
         state: State::new(1),
     };
-    let (outlet, mut inlet) = queues(8);
+    let (record_writer, mut record_reader) = queues(8);
     let settings = periods(100);
-    let report = ServoLoop::new(&mut device, render, clock, outlet, settings).run(&NEVER);
+    let report = ServoLoop::new(&mut device, render, clock, record_writer, settings).run(&NEVER);
     assert_eq!(report.missed, 0);
-    assert!(report.ticks >= 100 && !inlet.is_over());
-    let kept: Vec<u64> = std::iter::from_fn(|| inlet.record().map(|r| r.period)).collect();
+    assert!(report.ticks >= 100 && !record_reader.is_over());
+    let kept: Vec<u64> = std::iter::from_fn(|| record_reader.record().map(|r| r.period)).collect();
     assert_eq!(kept, (0..8).collect::<Vec<_>>());
-    assert_eq!(inlet.lost(), report.ticks - 8);
-    assert!(inlet.is_over());
+    assert_eq!(record_reader.lost(), report.ticks - 8);
+    assert!(record_reader.is_over());
 }
 
 #[test]
@@ -273,15 +276,15 @@ fn a_slow_reader_loses_the_latest_events_and_they_are_counted() {
         period,
         faulty_ticks: 1,
     };
-    let (mut outlet, mut inlet) = queues(1);
-    assert_eq!((inlet.event(), inlet.lost()), (None, 0));
+    let (mut record_writer, mut record_reader) = queues(1);
+    assert_eq!((record_reader.event(), record_reader.lost()), (None, 0));
     for period in 0..1000 {
-        outlet.event(back(period));
+        record_writer.event(back(period));
     }
-    let kept: Vec<Event> = std::iter::from_fn(|| inlet.event()).collect();
+    let kept: Vec<Event> = std::iter::from_fn(|| record_reader.event()).collect();
     assert!((1..1000).contains(&kept.len()));
     assert_eq!(kept, (0..kept.len() as u64).map(back).collect::<Vec<_>>());
-    assert_eq!(inlet.lost(), 1000 - kept.len() as u64);
+    assert_eq!(record_reader.lost(), 1000 - kept.len() as u64);
 }
 
 #[test]

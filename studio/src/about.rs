@@ -4,8 +4,8 @@ use crate::{
     VERSION,
     device::{Description, LiveDevice},
     export::{MODULE, OFFERED},
+    library_store::LibraryHandle,
     prompts::Prompts,
-    shelf::Named,
 };
 use asperity::{
     edit::{AXES, Axis, Scale},
@@ -44,7 +44,7 @@ pub(crate) struct Library<'a> {
 }
 
 impl<'a> Library<'a> {
-    pub(crate) fn of(named: &'a Named) -> Self {
+    pub(crate) fn of(named: &'a LibraryHandle) -> Self {
         Self {
             id: &named.id,
             name: named.library.name(),
@@ -99,7 +99,7 @@ struct Compiler {
 /// What the server is, JSON. It waits for the networks where there are any.
 pub(crate) fn about(
     prompts: &Prompts,
-    start: Option<&Named>,
+    start: Option<&LibraryHandle>,
     device: Option<&LiveDevice>,
     served: Served,
 ) -> Vec<u8> {

@@ -7,10 +7,10 @@ use crate::{
     download::Download,
     error::ApiError,
     http::PAGE_POLICY,
+    library_store::LibraryHandle,
     module::Module,
     page::{self, File},
     prompts::LoadPrompts,
-    shelf::Named,
     studio::Studio,
 };
 use asperity_io::{
@@ -138,7 +138,12 @@ struct Writer {
 impl Writer {
     /// Writes the texture at a place of a library: what the page gets when it picks it, and its files. Textures that are
     /// the same but for their place share those. Gives what names the texture.
-    fn texture(&self, studio: &Studio, named: &Named, at: usize) -> Result<String, ExportError> {
+    fn texture(
+        &self,
+        studio: &Studio,
+        named: &LibraryHandle,
+        at: usize,
+    ) -> Result<String, ExportError> {
         let library = &named.library;
         let fail = |error: ApiError| ExportError::Texture {
             name: library.names().nth(at).unwrap_or_default().to_owned(),

@@ -43,6 +43,8 @@ mod error;
 mod export;
 mod guard;
 mod http;
+mod library_store;
+mod limiter;
 mod making;
 mod module;
 mod opening;
@@ -54,12 +56,10 @@ mod recipe;
 mod reply;
 mod row;
 mod server;
-mod shelf;
 mod studio;
 mod texture;
 mod thumbnails;
 mod token;
-mod turns;
 mod worklet_asset;
 
 /// The version of page, interface and module, which belong together.

@@ -6,30 +6,30 @@ use crate::{
     device::LiveDevice,
     error::ApiError,
     http::Status,
+    library_store::{LibraryHandle, LibraryStore},
+    limiter::Limiter,
     making,
     opening::{self, Found},
     prompts::{LoadPrompts, Loaded, Prompts},
     recent::Recent,
-    shelf::{Named, Shelf},
     texture::Texture,
-    turns::Turns,
 };
 use std::sync::Arc;
 
 /// A studio for one person.
 pub struct Studio {
-    shelf: Shelf,
+    shelf: LibraryStore,
     device: Option<LiveDevice>,
     prompts: Prompts,
     recent: Recent,
-    computing: Turns,
-    sending: Turns,
+    computing: Limiter,
+    sending: Limiter,
 }
 
 /// What was opened and kept.
 pub(crate) enum Kept {
     Texture(Arc<Texture>),
-    Library(Named),
+    Library(LibraryHandle),
 }
 
 impl Studio {
@@ -38,12 +38,12 @@ impl Studio {
     #[must_use]
     pub fn new(collection: Option<Collection>, prompts: Option<LoadPrompts>) -> Self {
         Self {
-            shelf: Shelf::new(collection),
+            shelf: LibraryStore::new(collection),
             device: None,
             prompts: Prompts::new(prompts),
             recent: Recent::default(),
-            computing: Turns::computing(),
-            sending: Turns::sending(),
+            computing: Limiter::computing(),
+            sending: Limiter::sending(),
         }
     }
 
@@ -82,7 +82,7 @@ impl Studio {
     }
 
     /// The library that it was started with.
-    pub(crate) fn start(&self) -> Option<Named> {
+    pub(crate) fn start(&self) -> Option<LibraryHandle> {
         self.shelf.start()
     }
 
@@ -122,7 +122,7 @@ impl Studio {
     ///
     /// # Errors
     /// Where there is none, or no longer.
-    pub(crate) fn library(&self, id: &str) -> Result<Named, ApiError> {
+    pub(crate) fn library(&self, id: &str) -> Result<LibraryHandle, ApiError> {
         self.shelf.get(id)
     }
 
@@ -130,7 +130,11 @@ impl Studio {
     ///
     /// # Errors
     /// As `asperity extract`.
-    pub(crate) fn pick(&self, library: &Named, at: usize) -> Result<Arc<Texture>, ApiError> {
+    pub(crate) fn pick(
+        &self,
+        library: &LibraryHandle,
+        at: usize,
+    ) -> Result<Arc<Texture>, ApiError> {
         let texture = self.compute(|| library.library.texture(at))?;
         Ok(self.keep(texture))
     }

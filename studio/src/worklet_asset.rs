@@ -7,7 +7,7 @@ use asperity::{
     pipeline::Request,
     raise::raise,
     rerate::RATE_RANGE_HZ,
-    sources::{Sourced, Tools},
+    sources::{SourceOutput, Tools},
 };
 use asperity_formats::{Asset, EncodeError};
 use asperity_io::diagnostic::Failure;
@@ -49,7 +49,7 @@ pub(crate) fn worklet_asset(bytes: &[u8]) -> Result<Vec<u8>, Failure> {
         rate_hz: Some(rate_hz),
         ..Request::default()
     };
-    let source = Sourced::new(raise(&asset));
+    let source = SourceOutput::new(raise(&asset));
     let compiled = driver::compile(&source, &request, &Tools::default())?;
     Ok(compiled.lowered.bytes)
 }
@@ -88,7 +88,8 @@ mod tests {
             rate_hz: Some(1500.0),
             ..Request::default()
         };
-        let slower = driver::compile(&Sourced::new(texture), &request, &Tools::default()).unwrap();
+        let slower =
+            driver::compile(&SourceOutput::new(texture), &request, &Tools::default()).unwrap();
         let served = worklet_asset(&slower.lowered.bytes).unwrap();
         let served = Asset::parse(&served).unwrap();
         assert_eq!(served.grid().sample_rate_hz(), 1600.0);

@@ -10,7 +10,7 @@ use asperity::{
     pipeline::Request,
     preview,
     prompt::{Options, PromptCompiler},
-    sources::{Sourced, Tools},
+    sources::{SourceOutput, Tools},
 };
 use asperity_formats::Asset;
 use asperity_studio::{Collection, Limits};
@@ -134,7 +134,7 @@ fn an_asset_at_a_rate_that_the_worklet_does_not_serve_is_converted_for_it() {
         rate_hz: Some(1500.0),
         ..Request::default()
     };
-    let source = Sourced::new(builtin::texture());
+    let source = SourceOutput::new(builtin::texture());
     let compiled = driver::compile(&source, &request, &Tools::default()).expect("a texture");
     let bytes = compiled.lowered.bytes;
     let json = site.post("api/open?name=grit.asp", &bytes).json()["texture"].clone();

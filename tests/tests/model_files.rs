@@ -13,7 +13,7 @@ use asperity::{
     prompt::{self, PromptCompiler},
     raise::raise,
     reduce::Fidelity,
-    sources::{Sourced, Tools},
+    sources::{SourceOutput, Tools},
 };
 use asperity_formats::Asset;
 use std::{fs, path::Path};
@@ -23,9 +23,9 @@ fn through_a_file(whole: &TextureModel, request: &Request, direct: &[u8]) -> Vec
     let read = model_file::from_json(&model_file::to_json(whole)).expect("an emitted model");
     let direct = Asset::parse(direct).expect("an asset");
     // What it remembers is no part of the model.
-    let source = Sourced {
+    let source = SourceOutput {
         memory: remembered(&direct).expect("a memory"),
-        ..Sourced::new(read)
+        ..SourceOutput::new(read)
     };
     support::compiled(&source, request).lowered.bytes
 }
@@ -104,9 +104,9 @@ fn a_stabilised_texture_is_emitted_as_it_was_verified() {
             "far".into(),
             Provenance::default(),
         );
-        let source = Sourced {
+        let source = SourceOutput {
             ringing: Ringing::Stabilised,
-            ..Sourced::new(texture)
+            ..SourceOutput::new(texture)
         };
         let compiled = driver::compile(&source, &request, &Tools::default());
         compiled.ok().filter(|compiled| compiled.stabilised > 0.0)

@@ -2,9 +2,9 @@
 
 use crate::{
     WIDTH_MM,
+    appearance::Appearance,
     color::{Rgb, lit, luminance, mix},
     description::{Description, Feel},
-    look::Look,
     noise::hash,
     pattern::Pattern,
     stems::stems,
@@ -23,7 +23,7 @@ const SOFT_HZ: f64 = 300.0;
 
 /// The pattern of a description and its look: what its words name, else what its neighbours are, else how it
 /// feels.
-pub(crate) fn choose(description: &Description<'_>) -> (Pattern, Look) {
+pub(crate) fn choose(description: &Description<'_>) -> (Pattern, Appearance) {
     let table: &Table = &TABLE;
     let said = read(description.words, table);
     let material = match said.material {
@@ -31,7 +31,7 @@ pub(crate) fn choose(description: &Description<'_>) -> (Pattern, Look) {
         None => of_neighbours(description.nearest, table)
             .unwrap_or_else(|| of_feel(description.feel, table)),
     };
-    let mut look = Look {
+    let mut look = Appearance {
         colors: colors(&material, &said),
         cells: material.cells,
         fineness: 1.0,
@@ -49,7 +49,7 @@ pub(crate) fn choose(description: &Description<'_>) -> (Pattern, Look) {
 }
 
 /// Grain of another size, half as many decades as it is, so that a picture shows both ends of a scale.
-fn graded(look: &mut Look, coarser: f64) {
+fn graded(look: &mut Appearance, coarser: f64) {
     let finer = libm::pow(coarser.clamp(1e-4, 1e4), -0.5).clamp(0.35, 3.0);
     look.fineness *= finer as f32;
     let (cells, strength) = look.grain;
@@ -58,7 +58,7 @@ fn graded(look: &mut Look, coarser: f64) {
 
 /// Level, wavelength, friction and hardness move the look within bounds that leave it the
 /// material's.
-fn felt(look: &mut Look, feel: Feel) {
+fn felt(look: &mut Appearance, feel: Feel) {
     let finer = libm::pow(
         (USUAL_MM / feel.wavelength_mm.max(1e-3)).clamp(0.1, 10.0),
         0.12,
@@ -202,7 +202,7 @@ mod tests {
     use super::*;
     use crate::color::parse;
 
-    fn described<'a>(words: &'a str, nearest: &'a [(&'a str, f64)]) -> (Pattern, Look) {
+    fn described<'a>(words: &'a str, nearest: &'a [(&'a str, f64)]) -> (Pattern, Appearance) {
         choose(&Description {
             words,
             coarser: 1.0,

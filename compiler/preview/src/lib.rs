@@ -21,12 +21,12 @@
 //! ```
 #![forbid(unsafe_code)]
 
+mod appearance;
 mod choose;
 mod color;
 mod description;
 mod encode;
 mod light;
-mod look;
 mod noise;
 mod palette;
 mod pattern;

@@ -30,9 +30,9 @@ use crate::{
         sections::renamed,
     },
     passes::reduce::{Fidelity, reduce},
-    pipeline::{Beside, Pass, Pipeline, PipelineError, Request},
+    pipeline::{Attachments, Pass, Pipeline, PipelineError, Request},
     sources::{
-        Source, Sourced, Tools,
+        Source, SourceOutput, Tools,
         latents::{EditError, equal_loudness},
     },
 };
@@ -120,7 +120,7 @@ pub fn compile_all<S: Source>(
 
 /// An asset that is taken as it is, under the name that was asked for.
 fn taken(
-    sourced: Sourced,
+    sourced: SourceOutput,
     asset: &[u8],
     request: &Request,
     pipeline: Pipeline,
@@ -158,11 +158,11 @@ fn taken(
 }
 
 fn compiled(
-    sourced: Sourced,
+    sourced: SourceOutput,
     request: &Request,
     mut pipeline: Pipeline,
 ) -> Result<Compiled, PipelineError> {
-    let Sourced {
+    let SourceOutput {
         texture,
         asset: _,
         truth,
@@ -173,11 +173,11 @@ fn compiled(
         mut warnings,
         findings,
     } = sourced;
-    let beside = Beside {
+    let attachments = Attachments {
         picture: picture.as_deref(),
         memory: memory.as_ref(),
     };
-    let mut passed = pipeline.compile(texture, request, ringing, &beside)?;
+    let mut passed = pipeline.compile(texture, request, ringing, &attachments)?;
     let compared = truth.map(|truth| {
         pipeline.run(Pass::Compare, || {
             truth.compared(&mut passed, request.fidelity)

@@ -1,7 +1,7 @@
 //! An asset, or a texture of a library, taken as it is.
 
 use super::{
-    Kind, ManifestSource, Operand, Source, Sourced, Tools,
+    Kind, ManifestSource, Operand, Source, SourceOutput, Tools,
     key::{Key, Parts},
     latents::EditError,
     libraries::OpenLibraries,
@@ -60,16 +60,16 @@ impl Source for AssetFile {
         _: &Request,
         tools: &Tools<'_>,
         pipeline: &mut Pipeline,
-    ) -> Result<Sourced, Failure> {
+    ) -> Result<SourceOutput, Failure> {
         let bytes = pipeline.run(Pass::Read, || self.bytes(tools))?;
         let asset = Asset::parse(&bytes).map_err(EditError::from)?;
         let texture = raise(&asset);
         // Bytes that are taken as they are may have a history that this version does not read.
         let memory = remembered(&asset).ok().flatten();
-        Ok(Sourced {
+        Ok(SourceOutput {
             certainty: memory.and_then(|memory| memory.history.certainty),
             asset: Some(bytes),
-            ..Sourced::new(texture)
+            ..SourceOutput::new(texture)
         })
     }
 }

@@ -17,7 +17,7 @@
 use crate::{
     passes::triangulate,
     pipeline::{Pass, Pipeline, Request},
-    sources::{Source, Sourced, Tools},
+    sources::{Source, SourceOutput, Tools},
 };
 use asperity_io::diagnostic::Failure;
 use asperity_texture::{
@@ -69,8 +69,8 @@ impl Source for Builtin {
         _: &Request,
         _: &Tools<'_>,
         pipeline: &mut Pipeline,
-    ) -> Result<Sourced, Failure> {
-        Ok(Sourced::new(pipeline.run(Pass::Generate, texture)))
+    ) -> Result<SourceOutput, Failure> {
+        Ok(SourceOutput::new(pipeline.run(Pass::Generate, texture)))
     }
 }
 

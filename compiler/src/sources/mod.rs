@@ -8,12 +8,12 @@
 //! use asperity::{
 //!     builtin, driver,
 //!     pipeline::Request,
-//!     sources::{Sourced, Tools},
+//!     sources::{SourceOutput, Tools},
 //! };
 //!
 //! let mut texture = builtin::texture();
 //! texture.friction.mu = 0.2;
-//! let compiled = driver::compile(&Sourced::new(texture), &Request::default(), &Tools::default())?;
+//! let compiled = driver::compile(&SourceOutput::new(texture), &Request::default(), &Tools::default())?;
 //! assert_eq!(compiled.attributes().mu, 0.2);
 //! # Ok::<(), asperity::driver::Failure>(())
 //! ```
@@ -62,7 +62,7 @@ use std::{
 };
 use thiserror::Error;
 
-/// What a texture is made of. [`driver::compile`](crate::driver::compile) does
+/// The origin of a texture, which it reads and models. [`driver::compile`](crate::driver::compile) does
 /// what is the same for all of them.
 pub trait Source: Send + Sync {
     /// What a message begins with if its texture does not pass: mostly its file.
@@ -95,7 +95,7 @@ pub trait Source: Send + Sync {
         request: &Request,
         tools: &Tools<'_>,
         pipeline: &mut Pipeline,
-    ) -> Result<Sourced, Failure>;
+    ) -> Result<SourceOutput, Failure>;
 }
 
 /// A source that manifests can name, whose textures are cached.
@@ -200,7 +200,7 @@ impl Diagnostic for NoModel {
 
 /// A texture before its passes, and what its source knows of it.
 #[derive(Debug, Clone)]
-pub struct Sourced {
+pub struct SourceOutput {
     /// The whole texture.
     pub texture: TextureModel,
     /// The asset, if there is one already. It is taken as it is, but for its name: nothing is
@@ -222,7 +222,7 @@ pub struct Sourced {
     pub findings: Option<Arc<dyn Findings>>,
 }
 
-impl Sourced {
+impl SourceOutput {
     /// A texture of which nothing else is known. It may not ring.
     #[must_use]
     pub fn new(texture: TextureModel) -> Self {
@@ -241,8 +241,8 @@ impl Sourced {
 }
 
 /// A texture at hand is a source, too.
-impl Source for Sourced {
-    fn model(&self, _: &Request, _: &Tools<'_>, _: &mut Pipeline) -> Result<Sourced, Failure> {
+impl Source for SourceOutput {
+    fn model(&self, _: &Request, _: &Tools<'_>, _: &mut Pipeline) -> Result<SourceOutput, Failure> {
         Ok(self.clone())
     }
 }

@@ -158,7 +158,7 @@ mod tests {
         driver,
         emit::{lower::lower, raise::raise},
         pipeline::Request,
-        sources::{Sourced, Tools, builtin},
+        sources::{SourceOutput, Tools, builtin},
     };
     use asperity_formats::Asset;
 
@@ -174,7 +174,7 @@ mod tests {
             preview_px: Some(SIZE),
             ..Request::default()
         };
-        let source = Sourced::new(named("cork"));
+        let source = SourceOutput::new(named("cork"));
         let compiled = driver::compile(&source, &request, &Tools::default()).unwrap();
         let asset = Asset::parse(&compiled.lowered.bytes).unwrap();
         let kept = asset.preview_png().unwrap();

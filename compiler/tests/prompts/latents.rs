@@ -8,7 +8,7 @@ use asperity::{
     model::Provenance,
     pipeline::{Request, Ringing},
     reduce::Fidelity,
-    sources::{Sourced, Tools},
+    sources::{SourceOutput, Tools},
 };
 use asperity_tests::size::sized_or;
 use rand_core::{Rng as _, SeedableRng as _};
@@ -74,9 +74,9 @@ fn any_latent_is_a_stable_texture_within_bounds() {
                 fidelity: Fidelity::Auto,
                 ..Request::default()
             };
-            let source = Sourced {
+            let source = SourceOutput {
                 ringing: Ringing::Stabilised,
-                ..Sourced::new(texture)
+                ..SourceOutput::new(texture)
             };
             let compiled = driver::compile(&source, &request, &Tools::default());
             let compiled = compiled.unwrap_or_else(|error| panic!("{number}: {error}"));

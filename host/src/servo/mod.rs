@@ -12,7 +12,7 @@
 //! | `event` | what is reported once: faults, their end, recoveries that failed |
 //! | `render` | the runtime behind one trait: a texture, an exchange of textures, a scene |
 //! | `record`, `times` | what a tick leaves behind |
-//! | `outlet` | records and events to another thread |
+//! | `record_writer` | records and events to another thread |
 //! | `privileges` | real-time policy, locked memory, a processor of its own |
 //! | `thread` | all of it on a thread |
 //!
@@ -26,11 +26,11 @@ mod clock;
 mod deadlines;
 mod event;
 mod heard;
-mod outlet;
 mod pace;
 mod periods;
 pub mod privileges;
 mod record;
+mod record_queue;
 mod recovery;
 mod render;
 mod report;
@@ -41,11 +41,11 @@ mod times;
 pub use clock::{Clock, Monotonic, SECOND_NS, Virtual};
 pub use deadlines::Schedule;
 pub use event::Event;
-pub use outlet::{Inlet, Outlet, queues};
 pub use pace::Pace;
 pub use periods::ServoLoop;
 pub use record::{Observer, Record};
-pub use render::{InScene, Played, Render, SingleTexture};
+pub use record_queue::{RecordReader, RecordWriter, queues};
+pub use render::{Render, SceneRender, SingleTexture, SwappableTexture};
 pub use report::{End, Report};
 pub use settings::{Overrun, RATES_HZ, Settings, SettingsError};
 pub use thread::{Servo, Start};

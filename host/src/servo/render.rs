@@ -22,7 +22,7 @@ pub trait Render {
 }
 
 /// One texture, which may be exchanged for another while the loop runs.
-pub struct Played<'r, 'q, 'a> {
+pub struct SwappableTexture<'r, 'q, 'a> {
     /// The renderer.
     pub renderer: &'r Renderer,
     /// The servo's half of the exchange.
@@ -30,7 +30,7 @@ pub struct Played<'r, 'q, 'a> {
     exchanges: u32,
 }
 
-impl<'r, 'q, 'a> Played<'r, 'q, 'a> {
+impl<'r, 'q, 'a> SwappableTexture<'r, 'q, 'a> {
     /// What a player plays.
     #[must_use]
     pub fn new(renderer: &'r Renderer, player: Player<'q, 'a>) -> Self {
@@ -42,7 +42,7 @@ impl<'r, 'q, 'a> Played<'r, 'q, 'a> {
     }
 }
 
-impl Render for Played<'_, '_, '_> {
+impl Render for SwappableTexture<'_, '_, '_> {
     fn tick(&mut self, sample: &Sample) -> Output {
         let before = std::ptr::from_ref(self.player.texture());
         let output = self.renderer.tick_player(&mut self.player, sample);
@@ -66,7 +66,7 @@ impl Render for Played<'_, '_, '_> {
 }
 
 /// A scene of several surfaces.
-pub struct InScene<'r, 'a, const N: usize> {
+pub struct SceneRender<'r, 'a, const N: usize> {
     /// The renderer.
     pub renderer: &'r Renderer,
     /// The scene.
@@ -75,7 +75,7 @@ pub struct InScene<'r, 'a, const N: usize> {
     pub state: SceneState,
 }
 
-impl<const N: usize> Render for InScene<'_, '_, N> {
+impl<const N: usize> Render for SceneRender<'_, '_, N> {
     fn tick(&mut self, sample: &Sample) -> Output {
         self.renderer
             .tick_scene(self.scene, &mut self.state, sample)

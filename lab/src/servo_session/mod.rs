@@ -24,7 +24,7 @@ mod trace;
 pub use error::ServoSessionError;
 pub use open::open;
 pub use opened::{OpenDevice, Repeated, Replayed};
-pub use real_surface::run_unfelt;
+pub use real_surface::run_passive;
 pub use recorder::{Form, Recorder, Written};
 pub use run::{Attended, Setup, run};
 pub use surface::Surface;

@@ -30,7 +30,7 @@ impl Render for Unfelt {
 ///
 /// # Errors
 /// [`ServoSessionError`] for a device or a rate that do not fit.
-pub fn run_unfelt<O: Observer + Send>(
+pub fn run_passive<O: Observer + Send>(
     setup: Setup<'_>,
     device: &mut dyn Device,
     observer: O,

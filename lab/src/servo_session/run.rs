@@ -7,7 +7,7 @@ use asperity_host::device::Device;
 use asperity_host::latency::{Delayed, Injection};
 use asperity_host::servo::privileges::{Grant, Wanted};
 use asperity_host::servo::{
-    InScene, Monotonic, Observer, Played, Render, Report, Servo, Settings, Start,
+    Monotonic, Observer, Render, Report, SceneRender, Servo, Settings, Start, SwappableTexture,
 };
 use asperity_runtime::{
     Config, Exchange, HostScene, HostTexture, Preparer, Renderer, SceneState, Texture,
@@ -70,7 +70,7 @@ pub fn run<O: Observer + Send>(
             origin: surface.origin.clone(),
             cause,
         })?;
-        let render = InScene {
+        let render = SceneRender {
             renderer: &renderer,
             scene: &scene,
             state: SceneState::new(setup.seed),
@@ -86,7 +86,7 @@ pub fn run<O: Observer + Send>(
     })?;
     let mut exchange = Exchange::new();
     let (mut preparer, player) = exchange.split(&mut playing, [&mut a, &mut b], setup.seed);
-    let render = Played::new(&renderer, player);
+    let render = SwappableTexture::new(&renderer, player);
     spawn(setup, render, device, observer, Some(&mut preparer), attend)
 }
 

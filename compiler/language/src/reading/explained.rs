@@ -10,7 +10,7 @@ use serde::Serialize;
 
 /// What a word, or several that are one name, were taken for.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Taken {
+pub struct Interpretation {
     /// The words as they were read.
     pub text: String,
     /// `name`, `number`, `quality`, `degree`, `word` for what is encoded besides; of what is not, `object` for what carries
@@ -21,7 +21,7 @@ pub struct Taken {
 impl Reading {
     /// What became of every word, those that are not encoded at the end.
     #[must_use]
-    pub fn taken(&self) -> Vec<Taken> {
+    pub fn taken(&self) -> Vec<Interpretation> {
         let role = |text: &String| match text.as_str() {
             text if Grade::of(text).is_some() => "number",
             text if phrase::is_quality(text) => "quality",
@@ -41,7 +41,7 @@ impl Reading {
         };
         let gone = self.ignored.iter().filter(|text| !said(text));
         let gone = gone.map(|text| (text, "left out")).chain(others);
-        let taken = |(text, role): (&String, _)| Taken {
+        let taken = |(text, role): (&String, _)| Interpretation {
             text: text.clone(),
             role,
         };

@@ -43,7 +43,7 @@ pub use crate::lexicon::closed_class::{is_colour, is_grammar};
 pub use crate::lexicon::{in_one_word, key};
 pub use crate::roles::Role;
 pub use crate::words::{Token, normalise, shown};
-pub use explained::Taken;
+pub use explained::Interpretation;
 pub use spelling::Correction;
 
 use std::borrow::Cow;

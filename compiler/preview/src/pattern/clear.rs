@@ -1,8 +1,8 @@
 //! Glass, ice, snow and liquids.
 
 use crate::{
+    appearance::Appearance,
     color::{Rgb, lit, mix},
-    look::Look,
     noise::{Sequence, cell, dome, fract, gradient, nth, octaves, step, wave},
     surface::{Surface, Texel, Thread},
 };
@@ -10,7 +10,7 @@ use crate::{
 const WHITE: Rgb = [1.0, 1.0, 1.0];
 
 /// A clear pane that mirrors a window in slanting streaks.
-pub(super) fn glass(look: &Look, size: usize) -> Surface {
+pub(super) fn glass(look: &Appearance, size: usize) -> Surface {
     let seed = look.seed;
     Surface::of(size, |u, v| {
         let t = fract(u + v);
@@ -34,7 +34,7 @@ pub(super) fn glass(look: &Look, size: usize) -> Surface {
 }
 
 /// Ground or hammered glass: light broken by bumps.
-pub(super) fn bumpy_glass(look: &Look, size: usize) -> Surface {
+pub(super) fn bumpy_glass(look: &Appearance, size: usize) -> Surface {
     let n = look.count(12.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {
@@ -60,7 +60,7 @@ pub(super) fn bumpy_glass(look: &Look, size: usize) -> Surface {
 }
 
 /// Matt glass: a pale haze with a fine sparkle.
-pub(super) fn frosted(look: &Look, size: usize) -> Surface {
+pub(super) fn frosted(look: &Appearance, size: usize) -> Surface {
     let seed = look.seed;
     Surface::of(size, |u, v| {
         let blur = 0.5 + 0.5 * wave(u + v + 0.15 * octaves(u, v, 2, 2, 2, seed));
@@ -76,7 +76,7 @@ pub(super) fn frosted(look: &Look, size: usize) -> Surface {
 }
 
 /// Clear ice: cracks in the depth, bubbles, a wet shine.
-pub(super) fn ice(look: &Look, size: usize) -> Surface {
+pub(super) fn ice(look: &Appearance, size: usize) -> Surface {
     let seed = look.seed;
     Surface::of(size, |u, v| {
         let depth = 0.5 + 0.75 * octaves(u, v, 2, 2, 3, seed);
@@ -110,7 +110,7 @@ pub(super) fn ice(look: &Look, size: usize) -> Surface {
 }
 
 /// Feathers of frost.
-pub(super) fn frost(look: &Look, size: usize) -> Surface {
+pub(super) fn frost(look: &Appearance, size: usize) -> Surface {
     let seed = look.seed;
     let mut surface = Surface::of(size, |u, v| Texel {
         height: 0.0,
@@ -163,7 +163,7 @@ pub(super) fn frost(look: &Look, size: usize) -> Surface {
 }
 
 /// Fresh snow: drifts with blue shade, crumbs, sparkles.
-pub(super) fn snow(look: &Look, size: usize) -> Surface {
+pub(super) fn snow(look: &Appearance, size: usize) -> Surface {
     let n = look.count(3.0);
     let seed = look.seed;
     let drift = |u: f32, v: f32| {
@@ -190,7 +190,7 @@ pub(super) fn snow(look: &Look, size: usize) -> Surface {
 }
 
 /// A still or slow liquid with waves of light.
-pub(super) fn liquid(look: &Look, size: usize) -> Surface {
+pub(super) fn liquid(look: &Appearance, size: usize) -> Surface {
     let n = look.count(4.0);
     let seed = look.seed;
     let shine = look.shine(0.9);
@@ -209,7 +209,7 @@ pub(super) fn liquid(look: &Look, size: usize) -> Surface {
 }
 
 /// Drops on a smooth ground.
-pub(super) fn drops(look: &Look, size: usize) -> Surface {
+pub(super) fn drops(look: &Appearance, size: usize) -> Surface {
     let n = look.count(9.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {

@@ -1,8 +1,8 @@
 //! Threads over and under each other, and cloth that falls in folds.
 
 use crate::{
+    appearance::Appearance,
     color::{lit, mix},
-    look::Look,
     noise::{cell, dome, floor, fract, gradient, hash, lerp, octaves, step, unit, wave},
     surface::{Surface, Texel},
 };
@@ -11,24 +11,24 @@ use crate::{
 type Weave = fn(i32, i32) -> bool;
 
 /// One over, one under.
-pub(super) fn plain(look: &Look, size: usize) -> Surface {
+pub(super) fn plain(look: &Appearance, size: usize) -> Surface {
     woven(look, size, look.even(44.0), 0.5, |i, j| (i + j) & 1 == 0)
 }
 
 /// Coarse threads of uneven width, one over, one under.
-pub(super) fn coarse(look: &Look, size: usize) -> Surface {
+pub(super) fn coarse(look: &Appearance, size: usize) -> Surface {
     woven(look, size, look.even(22.0), 1.0, |i, j| (i + j) & 1 == 0)
 }
 
 /// Two over, two under, a thread further each time.
-pub(super) fn twill(look: &Look, size: usize) -> Surface {
+pub(super) fn twill(look: &Appearance, size: usize) -> Surface {
     woven(look, size, look.multiple(36.0, 4), 0.6, |i, j| {
         (i + j).rem_euclid(4) < 2
     })
 }
 
 /// Two over, one under: the diagonal of denim, with light weft in dark warp, and a double seam.
-pub(super) fn denim(look: &Look, size: usize) -> Surface {
+pub(super) fn denim(look: &Appearance, size: usize) -> Surface {
     let n = look.multiple(63.0, 3);
     let seed = look.seed;
     Surface::of(size, |u, v| {
@@ -88,7 +88,7 @@ pub(super) fn denim(look: &Look, size: usize) -> Surface {
     })
 }
 
-fn woven(look: &Look, size: usize, n: i32, uneven: f32, over: Weave) -> Surface {
+fn woven(look: &Appearance, size: usize, n: i32, uneven: f32, over: Weave) -> Surface {
     let seed = look.seed;
     let shine = look.shine(0.05);
     Surface::of(size, |u, v| {
@@ -128,7 +128,7 @@ fn woven(look: &Look, size: usize, n: i32, uneven: f32, over: Weave) -> Surface 
 }
 
 /// Columns of V-shaped stitches.
-pub(super) fn knit(look: &Look, size: usize) -> Surface {
+pub(super) fn knit(look: &Appearance, size: usize) -> Surface {
     let columns = look.count(12.0);
     let rows = (columns * 5 + 2) / 4;
     let seed = look.seed;
@@ -163,7 +163,7 @@ pub(super) fn knit(look: &Look, size: usize) -> Surface {
 }
 
 /// Raised cords with a pile.
-pub(super) fn corduroy(look: &Look, size: usize) -> Surface {
+pub(super) fn corduroy(look: &Appearance, size: usize) -> Surface {
     let n = look.count(13.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {
@@ -191,7 +191,7 @@ fn fold(u: f32, v: f32, n: f32, seed: u32) -> f32 {
 }
 
 /// A lustrous cloth in soft folds.
-pub(super) fn silk(look: &Look, size: usize) -> Surface {
+pub(super) fn silk(look: &Appearance, size: usize) -> Surface {
     let n = look.count(3.0) as f32;
     let seed = look.seed;
     let shine = look.shine(0.75);
@@ -213,7 +213,7 @@ pub(super) fn silk(look: &Look, size: usize) -> Surface {
 }
 
 /// A short dense pile in folds: bright where it is seen from the side, dark from above.
-pub(super) fn velvet(look: &Look, size: usize) -> Surface {
+pub(super) fn velvet(look: &Appearance, size: usize) -> Surface {
     let seed = look.seed;
     let n = look.count(3.0) as f32;
     Surface::of(size, |u, v| {
@@ -237,7 +237,7 @@ pub(super) fn velvet(look: &Look, size: usize) -> Surface {
 }
 
 /// A smooth thin cloth with a faint weave, lying flat with shallow creases.
-pub(super) fn sheet(look: &Look, size: usize) -> Surface {
+pub(super) fn sheet(look: &Appearance, size: usize) -> Surface {
     let n = look.even(84.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {
@@ -257,7 +257,7 @@ pub(super) fn sheet(look: &Look, size: usize) -> Surface {
 }
 
 /// An open net of thread over a ground.
-pub(super) fn net(look: &Look, size: usize) -> Surface {
+pub(super) fn net(look: &Appearance, size: usize) -> Surface {
     let n = look.even(12.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {
@@ -284,7 +284,7 @@ pub(super) fn net(look: &Look, size: usize) -> Surface {
 }
 
 /// Flowers of thread on a fine net.
-pub(super) fn lace(look: &Look, size: usize) -> Surface {
+pub(super) fn lace(look: &Appearance, size: usize) -> Surface {
     let n = look.even(6.0);
     Surface::of(size, |u, v| {
         let c = cell(u, v, n, n, 0.0, look.seed);
@@ -312,7 +312,7 @@ pub(super) fn lace(look: &Look, size: usize) -> Surface {
 }
 
 /// Flat strips over and under each other: carbon fibre, webbing, straw mats, wicker.
-pub(super) fn basket(look: &Look, size: usize) -> Surface {
+pub(super) fn basket(look: &Appearance, size: usize) -> Surface {
     let n = look.multiple(12.0, 4);
     let seed = look.seed;
     let shine = look.shine(0.1);
@@ -355,7 +355,7 @@ pub(super) fn basket(look: &Look, size: usize) -> Surface {
 }
 
 /// Twisted strands side by side: rope, cord, cable, yarn.
-pub(super) fn rope(look: &Look, size: usize) -> Surface {
+pub(super) fn rope(look: &Appearance, size: usize) -> Surface {
     let n = look.count(4.0);
     let seed = look.seed;
     let shine = look.shine(0.0);

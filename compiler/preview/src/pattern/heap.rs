@@ -1,8 +1,8 @@
 //! Loose things in a heap: rice, beans, lentils, sugar, leaves.
 
 use crate::{
+    appearance::Appearance,
     color::lit,
-    look::Look,
     noise::{Sequence, dome, step, wave},
     surface::{Surface, Texel},
 };
@@ -21,7 +21,7 @@ struct Thing {
 }
 
 /// Long grains: rice, oats, needles.
-pub(super) fn grains(look: &Look, size: usize) -> Surface {
+pub(super) fn grains(look: &Appearance, size: usize) -> Surface {
     heap(
         look,
         size,
@@ -37,7 +37,7 @@ pub(super) fn grains(look: &Look, size: usize) -> Surface {
 }
 
 /// Flat round grains: lentils, coins, confetti.
-pub(super) fn discs(look: &Look, size: usize) -> Surface {
+pub(super) fn discs(look: &Appearance, size: usize) -> Surface {
     heap(
         look,
         size,
@@ -53,7 +53,7 @@ pub(super) fn discs(look: &Look, size: usize) -> Surface {
 }
 
 /// Beans with a groove: coffee.
-pub(super) fn beans(look: &Look, size: usize) -> Surface {
+pub(super) fn beans(look: &Appearance, size: usize) -> Surface {
     heap(
         look,
         size,
@@ -69,7 +69,7 @@ pub(super) fn beans(look: &Look, size: usize) -> Surface {
 }
 
 /// Balls: glass beads, peas.
-pub(super) fn balls(look: &Look, size: usize) -> Surface {
+pub(super) fn balls(look: &Appearance, size: usize) -> Surface {
     heap(
         look,
         size,
@@ -85,7 +85,7 @@ pub(super) fn balls(look: &Look, size: usize) -> Surface {
 }
 
 /// Cubes: sugar, salt.
-pub(super) fn crystals(look: &Look, size: usize) -> Surface {
+pub(super) fn crystals(look: &Appearance, size: usize) -> Surface {
     heap(
         look,
         size,
@@ -100,7 +100,7 @@ pub(super) fn crystals(look: &Look, size: usize) -> Surface {
     )
 }
 
-fn heap(look: &Look, size: usize, n: i32, thing: &Thing) -> Surface {
+fn heap(look: &Appearance, size: usize, n: i32, thing: &Thing) -> Surface {
     let mut surface = Surface::of(size, |_, _| Texel {
         height: 0.0,
         color: lit(look.color(0), 0.18),

@@ -1,14 +1,14 @@
 //! Hides, skins, scales, leaves and feathers.
 
 use crate::{
+    appearance::Appearance,
     color::{lit, mix},
-    look::Look,
     noise::{cell, dome, floor, fract, gradient, hash, lerp, nth, octaves, step, unit, wave},
     surface::{Surface, Texel},
 };
 
 /// Tanned hide: small rounded pebbles between fine creases, and a few long ones.
-pub(super) fn leather(look: &Look, size: usize) -> Surface {
+pub(super) fn leather(look: &Appearance, size: usize) -> Surface {
     let n = look.count(30.0);
     let seed = look.seed;
     let shine = look.shine(0.4);
@@ -46,7 +46,7 @@ pub(super) fn leather(look: &Look, size: usize) -> Surface {
 }
 
 /// Napped hide: soft, with strokes of a hand in it.
-pub(super) fn suede(look: &Look, size: usize) -> Surface {
+pub(super) fn suede(look: &Appearance, size: usize) -> Surface {
     let seed = look.seed;
     Surface::of(size, |u, v| {
         let w = 0.08 * octaves(u, v, 3, 3, 2, seed);
@@ -62,7 +62,7 @@ pub(super) fn suede(look: &Look, size: usize) -> Surface {
 }
 
 /// Living skin: a net of fine lines, pores.
-pub(super) fn skin(look: &Look, size: usize) -> Surface {
+pub(super) fn skin(look: &Appearance, size: usize) -> Surface {
     let n = look.count(26.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {
@@ -86,7 +86,7 @@ pub(super) fn skin(look: &Look, size: usize) -> Surface {
 }
 
 /// The whorls of a palm.
-pub(super) fn whorls(look: &Look, size: usize) -> Surface {
+pub(super) fn whorls(look: &Appearance, size: usize) -> Surface {
     let n = look.count(24.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {
@@ -108,7 +108,7 @@ pub(super) fn whorls(look: &Look, size: usize) -> Surface {
 }
 
 /// Rows of scales, each over the next: snakes, fish, cones, roofs.
-pub(super) fn scales(look: &Look, size: usize) -> Surface {
+pub(super) fn scales(look: &Appearance, size: usize) -> Surface {
     let n = look.even(10.0);
     let seed = look.seed;
     let shine = look.shine(0.4);
@@ -151,7 +151,7 @@ pub(super) fn scales(look: &Look, size: usize) -> Surface {
 }
 
 /// A leaf: a middle rib, side ribs, a net between.
-pub(super) fn leaf(look: &Look, size: usize) -> Surface {
+pub(super) fn leaf(look: &Appearance, size: usize) -> Surface {
     let n = look.count(6.0);
     let seed = look.seed;
     let shine = look.shine(0.35);
@@ -183,7 +183,7 @@ pub(super) fn leaf(look: &Look, size: usize) -> Surface {
 }
 
 /// Vanes of a feather: fine barbs that slant from quills.
-pub(super) fn feather(look: &Look, size: usize) -> Surface {
+pub(super) fn feather(look: &Appearance, size: usize) -> Surface {
     let n = look.count(3.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {
@@ -229,7 +229,7 @@ pub(super) fn feather(look: &Look, size: usize) -> Surface {
 }
 
 /// Low warts or quill bumps on a skin.
-pub(super) fn bumps(look: &Look, size: usize) -> Surface {
+pub(super) fn bumps(look: &Appearance, size: usize) -> Surface {
     let n = look.count(11.0);
     let seed = look.seed;
     let shine = look.shine(0.3);

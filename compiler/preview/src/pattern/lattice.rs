@@ -1,14 +1,14 @@
 //! Wires, holes and studs in regular order.
 
 use crate::{
+    appearance::Appearance,
     color::{lit, mix},
-    look::Look,
     noise::{cell, dome, floor, fract, hash, lerp, octaves, step, unit, wave},
     surface::{Surface, Texel},
 };
 
 /// Wires woven over and under each other with open holes.
-pub(super) fn mesh(look: &Look, size: usize) -> Surface {
+pub(super) fn mesh(look: &Appearance, size: usize) -> Surface {
     let n = look.even(12.0);
     let shine = look.shine(0.6);
     let seed = look.seed;
@@ -54,7 +54,7 @@ pub(super) fn mesh(look: &Look, size: usize) -> Surface {
 }
 
 /// Round holes in a sheet, in a triangular order.
-pub(super) fn holes(look: &Look, size: usize) -> Surface {
+pub(super) fn holes(look: &Appearance, size: usize) -> Surface {
     let n = look.even(10.0);
     let rows = ((n * 8 + 3) / 7).max(2) / 2 * 2;
     let seed = look.seed;
@@ -92,7 +92,7 @@ fn triangular(u: f32, v: f32, n: i32, rows: i32) -> f32 {
 }
 
 /// Wire in six-sided holes, or walls of a comb.
-pub(super) fn hexagons(look: &Look, size: usize) -> Surface {
+pub(super) fn hexagons(look: &Appearance, size: usize) -> Surface {
     let n = look.even(8.0);
     let rows = ((n * 8 + 3) / 7).max(2) / 2 * 2;
     let shine = look.shine(0.3);
@@ -133,7 +133,7 @@ pub(super) fn hexagons(look: &Look, size: usize) -> Surface {
 }
 
 /// A sheet slit and pulled: long lozenges.
-pub(super) fn lozenges(look: &Look, size: usize) -> Surface {
+pub(super) fn lozenges(look: &Appearance, size: usize) -> Surface {
     let n = look.count(7.0);
     let shine = look.shine(0.4);
     Surface::of(size, |u, v| {
@@ -160,7 +160,7 @@ pub(super) fn lozenges(look: &Look, size: usize) -> Surface {
 }
 
 /// Rings through each other.
-pub(super) fn rings(look: &Look, size: usize) -> Surface {
+pub(super) fn rings(look: &Appearance, size: usize) -> Surface {
     let n = look.even(8.0);
     let shine = look.shine(0.7);
     let mut surface = Surface::of(size, |_, _| Texel {
@@ -197,7 +197,7 @@ pub(super) fn rings(look: &Look, size: usize) -> Surface {
 }
 
 /// Round studs with flat tops.
-pub(super) fn studs(look: &Look, size: usize) -> Surface {
+pub(super) fn studs(look: &Appearance, size: usize) -> Surface {
     let n = look.count(7.0);
     let shine = look.shine(0.2);
     let seed = look.seed;
@@ -225,7 +225,7 @@ pub(super) fn studs(look: &Look, size: usize) -> Surface {
 }
 
 /// Round domes: bubbles, beads, pearls.
-pub(super) fn domes(look: &Look, size: usize) -> Surface {
+pub(super) fn domes(look: &Appearance, size: usize) -> Surface {
     let n = look.even(8.0);
     let rows = ((n * 8 + 3) / 7).max(2) / 2 * 2;
     let shine = look.shine(0.9);
@@ -252,7 +252,7 @@ pub(super) fn domes(look: &Look, size: usize) -> Surface {
 }
 
 /// Shallow round hollows in a triangular order, as on golf balls and orange skins.
-pub(super) fn dimples(look: &Look, size: usize) -> Surface {
+pub(super) fn dimples(look: &Appearance, size: usize) -> Surface {
     let n = look.even(8.0);
     let rows = ((n * 8 + 3) / 7).max(2) / 2 * 2;
     Surface::of(size, |u, v| {
@@ -268,16 +268,16 @@ pub(super) fn dimples(look: &Look, size: usize) -> Surface {
 }
 
 /// Raised blocks with sloping sides: chocolate, waffles (where the blocks are hollows), keys.
-pub(super) fn blocks(look: &Look, size: usize) -> Surface {
+pub(super) fn blocks(look: &Appearance, size: usize) -> Surface {
     panels(look, size, 1.0)
 }
 
 /// Hollow squares between ridges.
-pub(super) fn pits(look: &Look, size: usize) -> Surface {
+pub(super) fn pits(look: &Appearance, size: usize) -> Surface {
     panels(look, size, -1.0)
 }
 
-fn panels(look: &Look, size: usize, sign: f32) -> Surface {
+fn panels(look: &Appearance, size: usize, sign: f32) -> Surface {
     let n = look.count(5.0);
     let seed = look.seed;
     let shine = look.shine(0.4);
@@ -303,7 +303,7 @@ fn panels(look: &Look, size: usize, sign: f32) -> Surface {
 }
 
 /// A tread of blocks and grooves.
-pub(super) fn tread(look: &Look, size: usize) -> Surface {
+pub(super) fn tread(look: &Appearance, size: usize) -> Surface {
     let n = look.even(6.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {
@@ -328,7 +328,7 @@ pub(super) fn tread(look: &Look, size: usize) -> Surface {
 }
 
 /// Grains that mirror, each its own way: glitter, anti-slip tape.
-pub(super) fn glitter(look: &Look, size: usize) -> Surface {
+pub(super) fn glitter(look: &Appearance, size: usize) -> Surface {
     let n = look.count(70.0);
     Surface::of(size, |u, v| {
         let c = cell(u, v, n, n, 1.0, look.seed);

@@ -1,14 +1,14 @@
 //! What is built of stone: walls, floors, roads.
 
 use crate::{
+    appearance::Appearance,
     color::{lit, mix},
-    look::Look,
     noise::{cell, dome, floor, fract, gradient, hash, nth, octaves, step, unit, wave},
     surface::{Surface, Texel},
 };
 
 /// Setts or cobbles in courses.
-pub(super) fn cobbles(look: &Look, size: usize) -> Surface {
+pub(super) fn cobbles(look: &Appearance, size: usize) -> Surface {
     let n = look.even(6.0);
     Surface::of(size, |u, v| {
         let s = 0.03 * gradient(u, v, n * 2, n * 2, look.seed);
@@ -31,7 +31,7 @@ pub(super) fn cobbles(look: &Look, size: usize) -> Surface {
 }
 
 /// Grey cast stone with pits, stains and a hair crack.
-pub(super) fn concrete(look: &Look, size: usize) -> Surface {
+pub(super) fn concrete(look: &Appearance, size: usize) -> Surface {
     let n = look.count(20.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {
@@ -68,7 +68,7 @@ pub(super) fn concrete(look: &Look, size: usize) -> Surface {
 }
 
 /// A wall coat: trowelled or combed, matt.
-pub(super) fn plaster(look: &Look, size: usize) -> Surface {
+pub(super) fn plaster(look: &Appearance, size: usize) -> Surface {
     let seed = look.seed;
     let n = look.count(5.0);
     Surface::of(size, |u, v| {
@@ -90,7 +90,7 @@ pub(super) fn plaster(look: &Look, size: usize) -> Surface {
 }
 
 /// Courses of bricks in mortar.
-pub(super) fn brick(look: &Look, size: usize) -> Surface {
+pub(super) fn brick(look: &Appearance, size: usize) -> Surface {
     let rows = look.even(8.0);
     let columns = (rows / 2).max(1);
     let seed = look.seed;
@@ -128,7 +128,7 @@ pub(super) fn brick(look: &Look, size: usize) -> Surface {
 }
 
 /// Square tiles in grout; glazed, they mirror a window.
-pub(super) fn tile(look: &Look, size: usize) -> Surface {
+pub(super) fn tile(look: &Appearance, size: usize) -> Surface {
     let n = look.count(4.0);
     let seed = look.seed;
     let glaze = look.shine(0.8);
@@ -158,7 +158,7 @@ pub(super) fn tile(look: &Look, size: usize) -> Surface {
 }
 
 /// Coarse stones in a ground: render, aggregate, asphalt.
-pub(super) fn aggregate(look: &Look, size: usize) -> Surface {
+pub(super) fn aggregate(look: &Appearance, size: usize) -> Surface {
     let n = look.count(30.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {

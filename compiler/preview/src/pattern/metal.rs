@@ -1,8 +1,8 @@
 //! Metal surfaces: ground, beaten, rolled, rusted.
 
 use crate::{
+    appearance::Appearance,
     color::{lit, mix},
-    look::Look,
     noise::{cell, dome, floor, fract, gradient, hash, lerp, nth, octaves, step, unit, wave},
     surface::{Surface, Texel, field},
 };
@@ -13,7 +13,7 @@ fn room(t: f32, seed: u32) -> f32 {
 }
 
 /// Fine scratches in one way.
-pub(super) fn brushed(look: &Look, size: usize) -> Surface {
+pub(super) fn brushed(look: &Appearance, size: usize) -> Surface {
     let seed = look.seed;
     let fine = look.count(150.0);
     Surface::of(size, |u, v| {
@@ -35,7 +35,7 @@ pub(super) fn brushed(look: &Look, size: usize) -> Surface {
 }
 
 /// A mirror that shows a dim room.
-pub(super) fn polished(look: &Look, size: usize) -> Surface {
+pub(super) fn polished(look: &Appearance, size: usize) -> Surface {
     let seed = look.seed;
     Surface::of(size, |u, v| {
         let w = 0.10 * octaves(u, v, 2, 2, 2, seed);
@@ -56,7 +56,7 @@ pub(super) fn polished(look: &Look, size: usize) -> Surface {
 }
 
 /// Round dents side by side.
-pub(super) fn hammered(look: &Look, size: usize) -> Surface {
+pub(super) fn hammered(look: &Appearance, size: usize) -> Surface {
     let n = look.count(9.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {
@@ -81,7 +81,7 @@ pub(super) fn hammered(look: &Look, size: usize) -> Surface {
 }
 
 /// Raised lozenges, every other one turned.
-pub(super) fn lugs(look: &Look, size: usize) -> Surface {
+pub(super) fn lugs(look: &Appearance, size: usize) -> Surface {
     let n = look.even(8.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {
@@ -109,7 +109,7 @@ pub(super) fn lugs(look: &Look, size: usize) -> Surface {
 }
 
 /// Small pyramids between crossing grooves.
-pub(super) fn knurl(look: &Look, size: usize) -> Surface {
+pub(super) fn knurl(look: &Appearance, size: usize) -> Surface {
     let n = look.count(14.0);
     Surface::of(size, |u, v| {
         let (x, y) = ((u + v) * n as f32, (u - v) * n as f32);
@@ -126,7 +126,7 @@ pub(super) fn knurl(look: &Look, size: usize) -> Surface {
 }
 
 /// Rust that eats into a sheet.
-pub(super) fn rust(look: &Look, size: usize) -> Surface {
+pub(super) fn rust(look: &Appearance, size: usize) -> Surface {
     let seed = look.seed;
     let n = look.count(4.0);
     Surface::of(size, |u, v| {
@@ -148,7 +148,7 @@ pub(super) fn rust(look: &Look, size: usize) -> Surface {
 }
 
 /// Cast or blasted metal: fine pits, dull shine.
-pub(super) fn cast(look: &Look, size: usize) -> Surface {
+pub(super) fn cast(look: &Appearance, size: usize) -> Surface {
     let seed = look.seed;
     let n = look.count(70.0);
     Surface::of(size, |u, v| {
@@ -166,7 +166,7 @@ pub(super) fn cast(look: &Look, size: usize) -> Surface {
 }
 
 /// Crystals of zinc, each with its own sheen.
-pub(super) fn spangle(look: &Look, size: usize) -> Surface {
+pub(super) fn spangle(look: &Appearance, size: usize) -> Surface {
     let n = look.count(9.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {
@@ -185,7 +185,7 @@ pub(super) fn spangle(look: &Look, size: usize) -> Surface {
 }
 
 /// Thin sheet crumpled and spread: foil, tissue, cellophane.
-pub(super) fn crumple(look: &Look, size: usize) -> Surface {
+pub(super) fn crumple(look: &Appearance, size: usize) -> Surface {
     let seed = look.seed;
     let n = look.count(5.0);
     let shine = look.shine(0.1);
@@ -228,7 +228,7 @@ pub(super) fn crumple(look: &Look, size: usize) -> Surface {
 }
 
 /// Regular grooves or waves across the patch.
-pub(super) fn ribs(look: &Look, size: usize) -> Surface {
+pub(super) fn ribs(look: &Appearance, size: usize) -> Surface {
     let n = look.count(10.0);
     let seed = look.seed;
     let shine = look.shine(0.3);
@@ -250,7 +250,7 @@ pub(super) fn ribs(look: &Look, size: usize) -> Surface {
 }
 
 /// Fine grooves side by side, in bands: records.
-pub(super) fn grooves(look: &Look, size: usize) -> Surface {
+pub(super) fn grooves(look: &Appearance, size: usize) -> Surface {
     let n = look.count(48.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {

@@ -1,14 +1,14 @@
 //! Stone, earth and what is built of them.
 
 use crate::{
+    appearance::Appearance,
     color::{lit, mix},
-    look::Look,
     noise::{cell, dome, floor, fract, gradient, hash, lerp, nth, octaves, step, unit},
     surface::{Surface, Texel},
 };
 
 /// Angular grains glued side by side, some of which glint.
-pub(super) fn grit(look: &Look, size: usize) -> Surface {
+pub(super) fn grit(look: &Appearance, size: usize) -> Surface {
     let n = look.count(72.0);
     Surface::of(size, |u, v| {
         let c = cell(u, v, n, n, 1.0, look.seed);
@@ -36,7 +36,7 @@ pub(super) fn grit(look: &Look, size: usize) -> Surface {
 }
 
 /// Fine loose grains in ripples.
-pub(super) fn sand(look: &Look, size: usize) -> Surface {
+pub(super) fn sand(look: &Appearance, size: usize) -> Surface {
     let (n, ripples) = (look.count(130.0), 5.0);
     Surface::of(size, |u, v| {
         let bend =
@@ -59,7 +59,7 @@ pub(super) fn sand(look: &Look, size: usize) -> Surface {
 }
 
 /// Rounded stones side by side, of several sizes.
-pub(super) fn pebbles(look: &Look, size: usize) -> Surface {
+pub(super) fn pebbles(look: &Appearance, size: usize) -> Surface {
     let n = look.count(11.0);
     let fine = n * 3;
     let seed = look.seed;
@@ -98,7 +98,7 @@ pub(super) fn pebbles(look: &Look, size: usize) -> Surface {
 }
 
 /// Crystals of a polished or broken rock.
-pub(super) fn granite(look: &Look, size: usize) -> Surface {
+pub(super) fn granite(look: &Appearance, size: usize) -> Surface {
     let n = look.count(34.0);
     Surface::of(size, |u, v| {
         let w = 0.012;
@@ -124,7 +124,7 @@ pub(super) fn granite(look: &Look, size: usize) -> Surface {
 }
 
 /// Chips of stone in a smooth ground.
-pub(super) fn terrazzo(look: &Look, size: usize) -> Surface {
+pub(super) fn terrazzo(look: &Appearance, size: usize) -> Surface {
     let n = look.count(13.0);
     Surface::of(size, |u, v| {
         let mut color = lit(
@@ -155,7 +155,7 @@ pub(super) fn terrazzo(look: &Look, size: usize) -> Surface {
 }
 
 /// White stone with veins.
-pub(super) fn marble(look: &Look, size: usize) -> Surface {
+pub(super) fn marble(look: &Appearance, size: usize) -> Surface {
     let seed = look.seed;
     Surface::of(size, |u, v| {
         let wx = 0.20 * octaves(u, v, 2, 2, 4, seed) + 0.02 * octaves(u, v, 14, 14, 2, seed + 9);
@@ -187,7 +187,7 @@ pub(super) fn marble(look: &Look, size: usize) -> Surface {
 }
 
 /// Strata: bedded or cleft stone.
-pub(super) fn strata(look: &Look, size: usize) -> Surface {
+pub(super) fn strata(look: &Appearance, size: usize) -> Surface {
     let n = look.count(7.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {
@@ -209,7 +209,7 @@ pub(super) fn strata(look: &Look, size: usize) -> Surface {
 }
 
 /// Dried plates with gaps.
-pub(super) fn cracks(look: &Look, size: usize) -> Surface {
+pub(super) fn cracks(look: &Appearance, size: usize) -> Surface {
     let n = look.count(6.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {

@@ -14,7 +14,7 @@ mod sheet;
 mod tufts;
 mod wood;
 
-use crate::{look::Look, surface::Surface};
+use crate::{appearance::Appearance, surface::Surface};
 use serde::Deserialize;
 
 /// Names the patterns and calls their synthesis.
@@ -31,7 +31,7 @@ macro_rules! patterns {
         }
 
         /// The surface of a pattern in a look, `size` pixels wide and high.
-        pub(crate) fn draw(pattern: Pattern, look: &Look, size: usize) -> Surface {
+        pub(crate) fn draw(pattern: Pattern, look: &Appearance, size: usize) -> Surface {
             match pattern { $(Pattern::$name => $module::$function(look, size),)* }
         }
     };

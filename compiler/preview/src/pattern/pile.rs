@@ -1,8 +1,8 @@
 //! Fibres, hairs, blades and loops, drawn one by one.
 
 use crate::{
+    appearance::Appearance,
     color::{Rgb, lit, mix},
-    look::Look,
     noise::{Sequence, gradient, wave},
     surface::{Surface, Texel, Thread},
 };
@@ -59,7 +59,7 @@ struct Strokes {
     gloss: f32,
 }
 
-fn strokes(look: &Look, surface: &mut Surface, s: &Strokes) {
+fn strokes(look: &Appearance, surface: &mut Surface, s: &Strokes) {
     let scale = look.fineness;
     let mut chance = Sequence::new(look.seed);
     let count = (s.count * scale * scale) as usize;
@@ -87,7 +87,7 @@ fn strokes(look: &Look, surface: &mut Surface, s: &Strokes) {
 }
 
 /// Blades of grass, which grow upwards and lean.
-pub(super) fn grass(look: &Look, size: usize) -> Surface {
+pub(super) fn grass(look: &Appearance, size: usize) -> Surface {
     let mut surface = ground(size, lit(look.color(0), 0.16));
     strokes(
         look,
@@ -110,7 +110,7 @@ pub(super) fn grass(look: &Look, size: usize) -> Surface {
 }
 
 /// Long soft fur in locks.
-pub(super) fn fur(look: &Look, size: usize) -> Surface {
+pub(super) fn fur(look: &Appearance, size: usize) -> Surface {
     let mut surface = ground(size, lit(look.color(0), 0.3));
     strokes(
         look,
@@ -133,7 +133,7 @@ pub(super) fn fur(look: &Look, size: usize) -> Surface {
 }
 
 /// Long hair that lies in one way.
-pub(super) fn hair(look: &Look, size: usize) -> Surface {
+pub(super) fn hair(look: &Appearance, size: usize) -> Surface {
     let mut surface = ground(size, lit(look.color(0), 0.4));
     strokes(
         look,
@@ -156,7 +156,7 @@ pub(super) fn hair(look: &Look, size: usize) -> Surface {
 }
 
 /// Matted fibres without a way.
-pub(super) fn felt(look: &Look, size: usize) -> Surface {
+pub(super) fn felt(look: &Appearance, size: usize) -> Surface {
     let mut surface = ground(size, lit(look.color(0), 0.8));
     let seed = look.seed;
     let n = size as f32;
@@ -190,7 +190,7 @@ pub(super) fn felt(look: &Look, size: usize) -> Surface {
 }
 
 /// Long yarns that fall over: shag.
-pub(super) fn shag(look: &Look, size: usize) -> Surface {
+pub(super) fn shag(look: &Appearance, size: usize) -> Surface {
     let mut surface = ground(size, lit(look.color(0), 0.25));
     strokes(
         look,
@@ -213,7 +213,7 @@ pub(super) fn shag(look: &Look, size: usize) -> Surface {
 }
 
 /// Stalks thrown over each other.
-pub(super) fn straw(look: &Look, size: usize) -> Surface {
+pub(super) fn straw(look: &Appearance, size: usize) -> Surface {
     let mut surface = ground(size, lit(look.color(0), 0.22));
     strokes(
         look,
@@ -236,7 +236,7 @@ pub(super) fn straw(look: &Look, size: usize) -> Surface {
 }
 
 /// Springy coils: scouring pads, steel wool, coir, loofah.
-pub(super) fn tangle(look: &Look, size: usize) -> Surface {
+pub(super) fn tangle(look: &Appearance, size: usize) -> Surface {
     let mut surface = ground(size, lit(look.color(0), 0.22));
     let width = 0.28 / look.count(40.0) as f32;
     strokes(
@@ -260,7 +260,7 @@ pub(super) fn tangle(look: &Look, size: usize) -> Surface {
 }
 
 /// Short hairs on a skin.
-pub(super) fn stubble(look: &Look, size: usize) -> Surface {
+pub(super) fn stubble(look: &Appearance, size: usize) -> Surface {
     let mut surface = super::hide::skin(look, size);
     let mut chance = Sequence::new(look.seed + 1);
     for _ in 0..420 {

@@ -1,25 +1,25 @@
 //! Foams, sponges and crumbs.
 
 use crate::{
+    appearance::Appearance,
     color::{lit, mix},
-    look::Look,
     noise::{cell, gradient, lerp, nth, octaves, step},
     surface::{Surface, Texel},
 };
 
 /// Open pores of many sizes.
-pub(super) fn sponge(look: &Look, size: usize) -> Surface {
+pub(super) fn sponge(look: &Appearance, size: usize) -> Surface {
     let n = look.count(9.0);
     pores(look, size, n, 1.0)
 }
 
 /// Small even pores.
-pub(super) fn foam(look: &Look, size: usize) -> Surface {
+pub(super) fn foam(look: &Appearance, size: usize) -> Surface {
     let n = look.count(26.0);
     pores(look, size, n, 0.45)
 }
 
-fn pores(look: &Look, size: usize, n: i32, uneven: f32) -> Surface {
+fn pores(look: &Appearance, size: usize, n: i32, uneven: f32) -> Surface {
     let seed = look.seed;
     Surface::of(size, |u, v| {
         let w = 0.14 / n as f32;
@@ -57,7 +57,7 @@ fn pores(look: &Look, size: usize, n: i32, uneven: f32) -> Surface {
 }
 
 /// Beads of foam pressed into a block.
-pub(super) fn beads(look: &Look, size: usize) -> Surface {
+pub(super) fn beads(look: &Appearance, size: usize) -> Surface {
     let n = look.count(13.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {
@@ -80,7 +80,7 @@ pub(super) fn beads(look: &Look, size: usize) -> Surface {
 }
 
 /// Waves of pyramids: acoustic foam.
-pub(super) fn wedges(look: &Look, size: usize) -> Surface {
+pub(super) fn wedges(look: &Appearance, size: usize) -> Surface {
     let n = look.count(5.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {
@@ -99,7 +99,7 @@ pub(super) fn wedges(look: &Look, size: usize) -> Surface {
 }
 
 /// A baked crust: browned, blistered, cracked.
-pub(super) fn crust(look: &Look, size: usize) -> Surface {
+pub(super) fn crust(look: &Appearance, size: usize) -> Surface {
     let n = look.count(5.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {

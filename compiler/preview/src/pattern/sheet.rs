@@ -1,14 +1,14 @@
 //! Sheets: paper, board, print, plastic.
 
 use crate::{
+    appearance::Appearance,
     color::{lit, mix},
-    look::Look,
     noise::{Sequence, cell, floor, fract, gradient, hash, nth, octaves, step, unit, wave},
     surface::{Surface, Texel, Thread},
 };
 
 /// A sheet that was folded twice, with fibres in it.
-pub(super) fn paper(look: &Look, size: usize) -> Surface {
+pub(super) fn paper(look: &Appearance, size: usize) -> Surface {
     let seed = look.seed;
     let shine = look.shine(0.0);
     let mut surface = Surface::of(size, |u, v| {
@@ -66,7 +66,7 @@ fn flat(surface: &mut Surface, points: &[(f32, f32)], thread: &Thread) {
 }
 
 /// Brown board with the waves of its middle showing through.
-pub(super) fn cardboard(look: &Look, size: usize) -> Surface {
+pub(super) fn cardboard(look: &Appearance, size: usize) -> Surface {
     let n = look.count(13.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {
@@ -104,7 +104,7 @@ pub(super) fn cardboard(look: &Look, size: usize) -> Surface {
 }
 
 /// Lines of print.
-pub(super) fn print(look: &Look, size: usize) -> Surface {
+pub(super) fn print(look: &Appearance, size: usize) -> Surface {
     let lines = look.count(22.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {
@@ -145,7 +145,7 @@ pub(super) fn print(look: &Look, size: usize) -> Surface {
 }
 
 /// Moulded plastic: one clean colour, soft waves, a mirrored lamp.
-pub(super) fn plastic(look: &Look, size: usize) -> Surface {
+pub(super) fn plastic(look: &Appearance, size: usize) -> Surface {
     let seed = look.seed;
     let shine = look.shine(0.7);
     Surface::of(size, |u, v| {
@@ -165,7 +165,7 @@ pub(super) fn plastic(look: &Look, size: usize) -> Surface {
 }
 
 /// Moulded with a fine pebbled grain: dashboards, housings, rubber.
-pub(super) fn moulded(look: &Look, size: usize) -> Surface {
+pub(super) fn moulded(look: &Appearance, size: usize) -> Surface {
     let n = look.count(44.0);
     let seed = look.seed;
     let shine = look.shine(0.25);
@@ -184,7 +184,7 @@ pub(super) fn moulded(look: &Look, size: usize) -> Surface {
 }
 
 /// Lines of a print head: layers side by side.
-pub(super) fn layers(look: &Look, size: usize) -> Surface {
+pub(super) fn layers(look: &Appearance, size: usize) -> Surface {
     let n = look.count(28.0);
     let seed = look.seed;
     let shine = look.shine(0.4);

@@ -2,14 +2,14 @@
 
 use super::pile::{ground, path};
 use crate::{
+    appearance::Appearance,
     color::lit,
-    look::Look,
     noise::{Sequence, dome, gradient, wave},
     surface::{Surface, Texel, Thread},
 };
 
 /// Short fibres in tufts: fleece, cotton wool, plush.
-pub(super) fn fleece(look: &Look, size: usize) -> Surface {
+pub(super) fn fleece(look: &Appearance, size: usize) -> Surface {
     let mut surface = ground(size, lit(look.color(0), 0.55));
     let mut chance = Sequence::new(look.seed);
     let n = look.count(19.0);
@@ -40,7 +40,7 @@ pub(super) fn fleece(look: &Look, size: usize) -> Surface {
 }
 
 /// Dense small loops in every way: towels, with their flat border.
-pub(super) fn loops(look: &Look, size: usize) -> Surface {
+pub(super) fn loops(look: &Appearance, size: usize) -> Surface {
     let mut surface = ground(size, lit(look.color(0), 0.5));
     let mut chance = Sequence::new(look.seed);
     let n = look.count(30.0);
@@ -71,7 +71,7 @@ pub(super) fn loops(look: &Look, size: usize) -> Surface {
 }
 
 /// The flat woven band of a towel, between two cords.
-fn bordered(look: &Look, surface: &mut Surface, n: i32) {
+fn bordered(look: &Appearance, surface: &mut Surface, n: i32) {
     let size = surface.size;
     for (k, texel) in surface.texels.iter_mut().enumerate() {
         let (u, v) = (
@@ -93,11 +93,11 @@ fn bordered(look: &Look, surface: &mut Surface, n: i32) {
 }
 
 /// Thick rows of loops: loop carpets.
-pub(super) fn thick_loops(look: &Look, size: usize) -> Surface {
+pub(super) fn thick_loops(look: &Appearance, size: usize) -> Surface {
     looped(look, size, look.count(17.0), 0.66)
 }
 
-fn looped(look: &Look, size: usize, n: i32, width: f32) -> Surface {
+fn looped(look: &Appearance, size: usize, n: i32, width: f32) -> Surface {
     let mut surface = ground(size, lit(look.color(0), 0.34));
     let mut chance = Sequence::new(look.seed);
     let pitch = 1.0 / n as f32;
@@ -133,12 +133,12 @@ fn looped(look: &Look, size: usize, n: i32, width: f32) -> Surface {
 }
 
 /// Cut yarns that stand on end, each a tuft of fibres.
-pub(super) fn cut_pile(look: &Look, size: usize) -> Surface {
+pub(super) fn cut_pile(look: &Appearance, size: usize) -> Surface {
     let n = look.count(34.0);
     tufts(look, size, n, 0.62)
 }
 
-fn tufts(look: &Look, size: usize, n: i32, length: f32) -> Surface {
+fn tufts(look: &Appearance, size: usize, n: i32, length: f32) -> Surface {
     let mut surface = ground(size, lit(look.color(0), 0.3));
     let mut chance = Sequence::new(look.seed);
     let pitch = 1.0 / n as f32;
@@ -180,7 +180,7 @@ fn tufts(look: &Look, size: usize, n: i32, length: f32) -> Surface {
 }
 
 /// Stiff bristles seen from their tips.
-pub(super) fn bristles(look: &Look, size: usize) -> Surface {
+pub(super) fn bristles(look: &Appearance, size: usize) -> Surface {
     let mut surface = ground(size, lit(look.color(1), 0.25));
     let mut chance = Sequence::new(look.seed);
     let n = look.count(26.0);
@@ -219,7 +219,7 @@ pub(super) fn bristles(look: &Look, size: usize) -> Surface {
 }
 
 /// Small leaves and tufts of a cushion.
-pub(super) fn moss(look: &Look, size: usize) -> Surface {
+pub(super) fn moss(look: &Appearance, size: usize) -> Surface {
     let mut surface = ground(size, lit(look.color(0), 0.25));
     let mut chance = Sequence::new(look.seed);
     let n = look.count(26.0);

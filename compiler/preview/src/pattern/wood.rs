@@ -1,8 +1,8 @@
 //! Wood, bark, cork and what is made of chips.
 
 use crate::{
+    appearance::Appearance,
     color::{Rgb, lit, mix},
-    look::Look,
     noise::{
         Sequence, cell, dome, floor, fract, gradient, hash, lerp, nth, octaves, step, unit, wave,
     },
@@ -11,7 +11,7 @@ use crate::{
 
 /// Height and tone of flat-sawn timber: rings that arch around a heart, pores, a knot.
 fn grain(
-    look: &Look,
+    look: &Appearance,
     u: f32,
     v: f32,
     rings: i32,
@@ -53,7 +53,7 @@ fn grain(
 }
 
 /// A sawn or planed board.
-pub(super) fn board(look: &Look, size: usize) -> Surface {
+pub(super) fn board(look: &Appearance, size: usize) -> Surface {
     let rings = look.count(9.0);
     let shine = look.shine(0.1);
     Surface::of(size, |u, v| {
@@ -69,7 +69,7 @@ pub(super) fn board(look: &Look, size: usize) -> Surface {
 }
 
 /// Boards side by side: floors, decks, pallets.
-pub(super) fn planks(look: &Look, size: usize) -> Surface {
+pub(super) fn planks(look: &Appearance, size: usize) -> Surface {
     let n = look.count(4.0);
     let shine = look.shine(0.1);
     Surface::of(size, |u, v| {
@@ -101,7 +101,7 @@ pub(super) fn planks(look: &Look, size: usize) -> Surface {
 }
 
 /// The end of a trunk: rings around a heart, cracks from it.
-pub(super) fn rings(look: &Look, size: usize) -> Surface {
+pub(super) fn rings(look: &Appearance, size: usize) -> Surface {
     let n = look.count(17.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {
@@ -129,7 +129,7 @@ pub(super) fn rings(look: &Look, size: usize) -> Surface {
 }
 
 /// Furrowed bark in long plates.
-pub(super) fn bark(look: &Look, size: usize) -> Surface {
+pub(super) fn bark(look: &Appearance, size: usize) -> Surface {
     let n = look.count(8.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {
@@ -159,7 +159,7 @@ pub(super) fn bark(look: &Look, size: usize) -> Surface {
 }
 
 /// Smooth bark with short dark cross lines.
-pub(super) fn birch(look: &Look, size: usize) -> Surface {
+pub(super) fn birch(look: &Appearance, size: usize) -> Surface {
     let seed = look.seed;
     let n = look.count(9.0);
     Surface::of(size, |u, v| {
@@ -184,7 +184,7 @@ pub(super) fn birch(look: &Look, size: usize) -> Surface {
 }
 
 /// Granules of cork pressed together, each of its own brown, with dark specks between them.
-pub(super) fn cork(look: &Look, size: usize) -> Surface {
+pub(super) fn cork(look: &Appearance, size: usize) -> Surface {
     let n = look.count(17.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {
@@ -259,7 +259,7 @@ impl Chip {
 }
 
 /// Flat chips or flakes thrown over each other.
-pub(super) fn chips(look: &Look, size: usize) -> Surface {
+pub(super) fn chips(look: &Appearance, size: usize) -> Surface {
     let n = look.count(9.0);
     let mut surface = Surface::of(size, |_, _| Texel {
         height: 0.0,
@@ -293,7 +293,7 @@ pub(super) fn chips(look: &Look, size: usize) -> Surface {
 }
 
 /// Canes side by side with knots: bamboo, reed.
-pub(super) fn bamboo(look: &Look, size: usize) -> Surface {
+pub(super) fn bamboo(look: &Appearance, size: usize) -> Surface {
     let n = look.count(5.0);
     let seed = look.seed;
     Surface::of(size, |u, v| {

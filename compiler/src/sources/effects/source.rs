@@ -10,7 +10,7 @@ use crate::{
     learned::edges,
     passes::triangulate,
     pipeline::{Pass, Pipeline, Request, Ringing},
-    sources::{ManifestSource, Source, Sourced, Tools, key::Parts},
+    sources::{ManifestSource, Source, SourceOutput, Tools, key::Parts},
 };
 use asperity_formats::limits::MAX_NAME_BYTES;
 use asperity_io::{
@@ -131,7 +131,7 @@ impl Source for Effects {
         request: &Request,
         tools: &Tools<'_>,
         pipeline: &mut Pipeline,
-    ) -> Result<Sourced, Failure> {
+    ) -> Result<SourceOutput, Failure> {
         let Self {
             file,
             kind,
@@ -157,11 +157,11 @@ impl Source for Effects {
         let name = file.file_name().unwrap_or_default();
         whole.provenance.source = name.to_string_lossy().into_owned();
         whole.provenance.source_crc32 = crc32;
-        Ok(Sourced {
+        Ok(SourceOutput {
             truth: Some(ErrorReference::Texture),
             ringing: Ringing::Stabilised,
             warnings,
-            ..Sourced::new(whole)
+            ..SourceOutput::new(whole)
         })
     }
 }

@@ -9,7 +9,7 @@ use crate::{
     compiled::{Compiled, ErrorReference},
     learned::{LearnedModel, ModelError, complete},
     pipeline::{Pass, Pipeline, Request},
-    sources::{Findings, ManifestSource, Source, Sourced, Tools, key::Parts},
+    sources::{Findings, ManifestSource, Source, SourceOutput, Tools, key::Parts},
 };
 use asperity_io::{
     diagnostic::{Diagnostic, Failure},
@@ -119,7 +119,7 @@ impl Source for Hatt {
         _: &Request,
         tools: &Tools<'_>,
         pipeline: &mut Pipeline,
-    ) -> Result<Sourced, Failure> {
+    ) -> Result<SourceOutput, Failure> {
         let (material, mut texture) = pipeline.run(Pass::Read, || read(&self.file, tools))?;
         if self.complete_taps {
             let model = tools.model()?;
@@ -133,10 +133,10 @@ impl Source for Hatt {
         let recomputed =
             |m: &SourceModel| usize::from(m.ar.recomputed) + usize::from(m.ma.recomputed);
         let recomputed = Recomputed(material.models.iter().map(recomputed).sum());
-        Ok(Sourced {
+        Ok(SourceOutput {
             truth: Some(truth(&material)),
             findings: Some(Arc::new(recomputed)),
-            ..Sourced::new(texture)
+            ..SourceOutput::new(texture)
         })
     }
 }

@@ -1,9 +1,9 @@
 //! Edits along the sliders: through the latent space as far as it goes, the rest after decoding.
 
 use super::{
+    attribute_cache::AttributeCache,
     error::EditError,
     latent_editor::LatentEditor,
-    look::Look,
     solve::{along, reach},
 };
 use crate::{
@@ -54,7 +54,7 @@ impl LatentEditor<'_> {
         sliders: &Sliders,
         request: &Request,
     ) -> Result<Latents, EditError> {
-        self.searched(latents, sliders, &Look::new(self, request))
+        self.searched(latents, sliders, &AttributeCache::new(self, request))
     }
 
     /// The same, with looks that may know these latents already.
@@ -62,7 +62,7 @@ impl LatentEditor<'_> {
         &self,
         latents: &Latents,
         sliders: &Sliders,
-        look: &Look<'_>,
+        look: &AttributeCache<'_>,
     ) -> Result<Latents, EditError> {
         if sliders.are_still() {
             return Ok(*latents);
@@ -85,7 +85,7 @@ impl LatentEditor<'_> {
         &self,
         latents: &Latents,
         sliders: &Sliders,
-        look: &Look<'_>,
+        look: &AttributeCache<'_>,
         before: &Attributes,
     ) -> Result<Latents, EditError> {
         let mut aim = *sliders;
@@ -116,7 +116,7 @@ impl LatentEditor<'_> {
         &self,
         latents: Latents,
         sliders: &Sliders,
-        look: &Look<'_>,
+        look: &AttributeCache<'_>,
         before: &Attributes,
     ) -> Result<(Missing, Latents), EditError> {
         let mut now = latents;
@@ -163,7 +163,7 @@ impl LatentEditor<'_> {
         latents: &Latents,
         sliders: &Sliders,
         aim: &Sliders,
-        look: &Look<'_>,
+        look: &AttributeCache<'_>,
     ) -> Result<Latents, EditError> {
         let before = look.decoded(latents)?;
         let mut edited = *latents;
@@ -222,7 +222,7 @@ impl LatentEditor<'_> {
         &self,
         latents: &Latents,
         axes: &[Axis],
-        look: &Look<'_>,
+        look: &AttributeCache<'_>,
     ) -> Result<Option<Vec<f64>>, EditError> {
         let attributes = look.decoded(latents)?;
         let places = axes.iter().map(|&axis| self.scale.place(axis, &attributes));

@@ -4,7 +4,7 @@ use super::{error::EditError, latent_editor::LatentEditor};
 use crate::{
     edit_memory::{AXES, Latents},
     learned::{Latent, description::LATENT},
-    sources::prompt::{self, Taken},
+    sources::prompt::{self, Interpretation},
 };
 use asperity_io::shown::rounded;
 use asperity_texture::model::attributes::{self, Attributes};
@@ -32,7 +32,7 @@ pub struct WordEffect {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Explanation {
     /// What became of the words: what is encoded, then what was left out.
-    pub reading: Vec<Taken>,
+    pub reading: Vec<Interpretation>,
     /// What they are together.
     pub phrase: String,
     /// Every word.
@@ -188,7 +188,7 @@ impl Explanation {
         let width = words.map(|word| word.chars().count()).max();
         let width = width.unwrap_or(0).clamp("together".len(), 32);
         let mut text = String::new();
-        for Taken { text: word, role } in &self.reading {
+        for Interpretation { text: word, role } in &self.reading {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "  {word:<width$}  {role}");
         }

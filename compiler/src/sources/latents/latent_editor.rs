@@ -1,8 +1,8 @@
 //! From latents to assets, and from assets back to their latents.
 
 use super::{
+    attribute_cache::AttributeCache,
     error::EditError,
-    look::Look,
     scale::Scale,
     solve::Metric,
     source::{FromLatents, decode},
@@ -113,7 +113,7 @@ impl<'a> LatentEditor<'a> {
     /// # Errors
     /// As [`texture`](Self::texture).
     pub fn attributes(&self, latents: &Latents) -> Result<Attributes, EditError> {
-        Look::new(self, &Request::default()).decoded(latents)
+        AttributeCache::new(self, &Request::default()).decoded(latents)
     }
 
     /// The attributes of the asset that these latents give: what is left out counts no more.
@@ -125,6 +125,6 @@ impl<'a> LatentEditor<'a> {
         latents: &Latents,
         request: &Request,
     ) -> Result<Attributes, EditError> {
-        Look::new(self, request).kept(latents)
+        AttributeCache::new(self, request).kept(latents)
     }
 }

@@ -28,12 +28,12 @@
 //! # Ok::<(), asperity::driver::Failure>(())
 //! ```
 
+mod attribute_cache;
 mod edited;
 mod encode;
 mod error;
 mod explain;
 mod latent_editor;
-mod look;
 mod loudness;
 mod mix;
 mod report;

@@ -5,7 +5,7 @@ use crate::{
     edit_memory::{History, HistoryError, Ingredient, Latents, Memory, Origin, Step},
     learned::{Decoded, LearnedModel, ModelError, friction, texture},
     pipeline::{Pass, Pipeline, Request, Ringing},
-    sources::{Source, Sourced, Tools},
+    sources::{Source, SourceOutput, Tools},
 };
 use asperity_io::diagnostic::Failure;
 use asperity_texture::model::{FrictionLaw, Provenance, TextureModel, shift::adjust};
@@ -154,14 +154,14 @@ impl Source for FromLatents {
         _: &Request,
         tools: &Tools<'_>,
         pipeline: &mut Pipeline,
-    ) -> Result<Sourced, Failure> {
+    ) -> Result<SourceOutput, Failure> {
         let model = tools.model()?;
         let mut texture = pipeline.run(Pass::Decode, || {
             decode(model, &self.latents, &self.name, self.provenance.clone())
         })?;
         let mu = texture.friction.mu;
         texture.friction.law = self.law.clone().map(|law| law.beside(mu));
-        Ok(Sourced {
+        Ok(SourceOutput {
             ringing: Ringing::Stabilised,
             memory: Some(Memory {
                 model_crc32: model.crc32(),
@@ -170,7 +170,7 @@ impl Source for FromLatents {
             }),
             certainty: self.history.certainty,
             warnings: self.warnings.clone(),
-            ..Sourced::new(texture)
+            ..SourceOutput::new(texture)
         })
     }
 }

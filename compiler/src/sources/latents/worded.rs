@@ -1,6 +1,8 @@
 //! Edits, along the sliders or in words: "less gritty, more waxy".
 
-use super::{error::EditError, latent_editor::LatentEditor, look::Look, scale::Scale};
+use super::{
+    attribute_cache::AttributeCache, error::EditError, latent_editor::LatentEditor, scale::Scale,
+};
 use crate::{
     edit_memory::{Axis, Latents, Sliders},
     pipeline::Request,
@@ -86,7 +88,7 @@ impl LatentEditor<'_> {
         if asked.is_nothing() {
             return Err(EditError::NotUnderstood(text.to_owned()));
         }
-        let look = Look::new(self, request);
+        let look = AttributeCache::new(self, request);
         let base = look.kept(latents)?;
         let mut start = *latents;
         if let Some(towards) = &asked.towards {

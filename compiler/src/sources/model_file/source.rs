@@ -4,7 +4,7 @@ use super::{read::read_with, scale};
 use crate::{
     compiled::ErrorReference,
     pipeline::{Pass, Pipeline, Request},
-    sources::{ManifestSource, Source, Sourced, Tools, key::Parts},
+    sources::{ManifestSource, Source, SourceOutput, Tools, key::Parts},
 };
 use asperity_io::diagnostic::Failure;
 use asperity_io::input::Kind;
@@ -31,7 +31,7 @@ impl Source for ModelFile {
         _: &Request,
         tools: &Tools<'_>,
         pipeline: &mut Pipeline,
-    ) -> Result<Sourced, Failure> {
+    ) -> Result<SourceOutput, Failure> {
         let (mut texture, crc32) = pipeline.run(Pass::Read, || read_with(&self.file, tools))?;
         // Prompt, seed and notes are those of the file.
         let provenance = &mut texture.provenance;
@@ -39,10 +39,10 @@ impl Source for ModelFile {
         let name = self.file.file_name().unwrap_or_default();
         provenance.source = name.to_string_lossy().into_owned();
         provenance.source_crc32 = crc32;
-        Ok(Sourced {
+        Ok(SourceOutput {
             warnings: scale::doubts(&texture),
             truth: Some(ErrorReference::Texture),
-            ..Sourced::new(texture)
+            ..SourceOutput::new(texture)
         })
     }
 }

@@ -5,7 +5,7 @@ use crate::{
     driver,
     passes::reduce::Fidelity,
     pipeline::Request,
-    sources::{Sourced, Tools, builtin},
+    sources::{SourceOutput, Tools, builtin},
 };
 use asperity_io::input::{InputProblem, Kind};
 use asperity_texture::model::{FrictionLaw, LawPoint, Numerator, TextureModel, defaults, mesh};
@@ -116,7 +116,7 @@ fn a_model_read_back_gives_the_same_bytes_at_every_setting() {
                 ..Request::default()
             };
             let compile = |texture| {
-                let source = Sourced::new(texture);
+                let source = SourceOutput::new(texture);
                 driver::compile(&source, &request, &Tools::default()).unwrap()
             };
             let direct = compile(builtin::texture());
@@ -152,7 +152,7 @@ fn what_a_file_leaves_out_is_triangulated_or_set_to_a_default() {
     );
     assert!(texture.taps.traces.is_empty() && texture.friction.anchors.is_empty());
     assert!(texture.provenance.notes.contains("unconfirmed"));
-    let source = Sourced::new(texture);
+    let source = SourceOutput::new(texture);
     driver::compile(&source, &Request::default(), &Tools::default()).unwrap();
 }
 
@@ -431,7 +431,7 @@ fn the_longest_provenance_fits_an_asset() {
         top["provenance"][key] = json!("ä".repeat(1536));
     }
     let texture = from(&long).unwrap();
-    let source = Sourced::new(texture);
+    let source = SourceOutput::new(texture);
     let compiled = driver::compile(&source, &Request::default(), &Tools::default());
     assert!(compiled.is_ok(), "{compiled:?}");
 }

@@ -1,6 +1,6 @@
 //! How far a number moves the attributes of a material.
 
-use super::{PromptCompiler, PromptError, named_things::Thing};
+use super::{PromptCompiler, PromptError, named_things::Referent};
 use asperity_language::words::grade::{
     Grade, PAPERS, Scale, grit_um, is_paper, janka, own_grain_um,
 };
@@ -24,7 +24,7 @@ const MOHS: [(&str, f64); 2] = [("gypsum", 2.0), ("diamond", 10.0)];
 
 impl PromptCompiler {
     /// A material at its grades. Where grades conflict, the last holds.
-    pub(super) fn graded(&self, name: &str, grades: &[Grade]) -> Result<Thing, PromptError> {
+    pub(super) fn graded(&self, name: &str, grades: &[Grade]) -> Result<Referent, PromptError> {
         let mut found = self.thing(name)?;
         for (n, grade) in grades.iter().enumerate() {
             if !grades[n + 1..].iter().any(|later| later.conflicts(*grade)) {
@@ -36,7 +36,11 @@ impl PromptCompiler {
 
     /// A named wood: as hard as it was measured, with the grain of the known wood that is next to it in
     /// hardness where only "wood" behind its name says that it is one. `None` for what is no wood.
-    pub(super) fn wood(&self, name: &str, thing: Thing) -> Result<Option<Thing>, PromptError> {
+    pub(super) fn wood(
+        &self,
+        name: &str,
+        thing: Referent,
+    ) -> Result<Option<Referent>, PromptError> {
         let Some(force) = janka(name) else {
             return Ok(None);
         };
@@ -51,10 +55,10 @@ impl PromptCompiler {
         let next = known.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
         let (next, _) = next.unwrap_or(&softest);
         let z = self.named_thing(next)?.z;
-        Ok(Some(Thing { z, ..wood }))
+        Ok(Some(Referent { z, ..wood }))
     }
 
-    fn at_grade(&self, thing: Thing, name: &str, grade: Grade) -> Result<Thing, PromptError> {
+    fn at_grade(&self, thing: Referent, name: &str, grade: Grade) -> Result<Referent, PromptError> {
         let Grade { scale, value } = grade;
         let coarser = grade.coarser(name);
         match scale {
@@ -77,7 +81,7 @@ impl PromptCompiler {
 
     /// Sandpaper with this grain: between the two that the model knows, or beyond the last, by the
     /// logarithm.
-    fn paper(&self, grain_um: f64) -> Result<Thing, PromptError> {
+    fn paper(&self, grain_um: f64) -> Result<Referent, PromptError> {
         let after = PAPERS.iter().position(|(um, _)| *um <= grain_um);
         let after = after.unwrap_or(PAPERS.len() - 1).max(1);
         let [(coarse, a), (fine, b)] = [PAPERS[after - 1], PAPERS[after]];
@@ -85,7 +89,7 @@ impl PromptCompiler {
         let (a, b) = (self.named_thing(a)?, self.named_thing(b)?);
         // A latent beyond those that are known may be anything; attributes go on.
         let within = t.clamp(0.0, 1.0) as f32;
-        Ok(Thing {
+        Ok(Referent {
             composed: true,
             z: std::array::from_fn(|k| a.z[k] + within * (b.z[k] - a.z[k])),
             wanted: std::array::from_fn(|k| {
@@ -100,7 +104,12 @@ impl PromptCompiler {
     }
 
     /// A material with grain so much coarser than its own: as much rougher and grippier as sandpaper would be.
-    fn of_grain(&self, thing: Thing, own_um: f64, coarser: f64) -> Result<Thing, PromptError> {
+    fn of_grain(
+        &self,
+        thing: Referent,
+        own_um: f64,
+        coarser: f64,
+    ) -> Result<Referent, PromptError> {
         let (to, from) = (self.paper(coarser * own_um)?, self.paper(own_um)?);
         let by = |k: usize| Some(to.wanted[k]? - from.wanted[k]?);
         let thing = moved(thing, 0, by(0).unwrap_or(0.0));
@@ -118,21 +127,21 @@ impl PromptCompiler {
     /// A material of the hardness on the line through two known ones.
     fn as_hard(
         &self,
-        thing: Thing,
+        thing: Referent,
         known: [(&str, f64); 2],
         number: f64,
-    ) -> Result<Thing, PromptError> {
+    ) -> Result<Referent, PromptError> {
         let [(a, at_a), (b, at_b)] = known;
         let hard = |name| Ok::<_, PromptError>(self.named_thing(name)?.wanted[2]);
         let (a, b) = (hard(a)?, hard(b)?);
         let mut wanted: Scales = thing.wanted;
         let line = |a: f64, b: f64| a + (number - at_a) / (at_b - at_a) * (b - a);
         wanted[2] = a.zip(b).map(|(a, b)| line(a, b)).or(wanted[2]);
-        Ok(Thing { wanted, ..thing })
+        Ok(Referent { wanted, ..thing })
     }
 }
 
-fn moved(mut thing: Thing, attribute: usize, by: f64) -> Thing {
+fn moved(mut thing: Referent, attribute: usize, by: f64) -> Referent {
     thing.wanted[attribute] = thing.wanted[attribute].map(|x| x + by);
     thing
 }

@@ -2,7 +2,7 @@
 
 use super::{
     Projection, PromptCompiler, PromptError,
-    named_things::{Thing, Things},
+    named_things::{Referent, Things},
     phrase::Phrase,
 };
 use crate::learned::{Decoded, Latent, texture};
@@ -117,7 +117,7 @@ impl PromptCompiler {
     }
 
     /// The material that a text names; the text may be a phrase itself. Prompts of a library name few of them.
-    pub(super) fn thing(&self, text: &str) -> Result<Thing, PromptError> {
+    pub(super) fn thing(&self, text: &str) -> Result<Referent, PromptError> {
         kept(&self.things, text, || {
             let projection = self.projected(text, self.read_surface(text))?;
             let composed = projection.reading.phrase != Phrase::Plain;
@@ -127,7 +127,7 @@ impl PromptCompiler {
     }
 
     /// A material by the name under which the model knows it; the name is not parsed.
-    pub(super) fn named_thing(&self, name: &str) -> Result<Thing, PromptError> {
+    pub(super) fn named_thing(&self, name: &str) -> Result<Referent, PromptError> {
         kept(&self.known, name, || {
             let (_, projected) = &*self.encode(name)?;
             let felt = projected.felt.map(|felt| felt.map(|x| Some(x.into())));
@@ -140,8 +140,8 @@ impl PromptCompiler {
         z: Latent,
         wanted: Option<Scales>,
         composed: bool,
-    ) -> Result<Thing, PromptError> {
-        Ok(Thing {
+    ) -> Result<Referent, PromptError> {
+        Ok(Referent {
             z,
             wanted: self.or_decoded(&z, wanted)?,
             composed,
@@ -175,8 +175,8 @@ impl PromptCompiler {
 fn kept(
     things: &Things,
     text: &str,
-    thing: impl FnOnce() -> Result<Thing, PromptError>,
-) -> Result<Thing, PromptError> {
+    thing: impl FnOnce() -> Result<Referent, PromptError>,
+) -> Result<Referent, PromptError> {
     if let Some(known) = things.get(text) {
         return Ok(known);
     }

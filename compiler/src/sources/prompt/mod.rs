@@ -36,7 +36,7 @@ mod source;
 mod suggestions;
 mod understood;
 
-pub use asperity_language::reading::Taken;
+pub use asperity_language::reading::Interpretation;
 pub use asperity_language::{phrase, reading, words::grade::woods};
 pub use asperity_texture::model::shift::Shift;
 pub use changed::{STEP, changed, from_base};

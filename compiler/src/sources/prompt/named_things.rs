@@ -12,7 +12,7 @@ const MOST: usize = 4096;
 
 /// A material as a prompt describes it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Thing {
+pub(super) struct Referent {
     pub(super) z: Latent,
     /// The attributes that its words ask for.
     pub(super) wanted: Scales,
@@ -23,16 +23,16 @@ pub(super) struct Thing {
 /// Materials by their words. What is kept is what would be computed again, so
 /// nothing depends on it but time.
 #[derive(Debug, Default)]
-pub(super) struct Things(Mutex<HashMap<String, Thing>>);
+pub(super) struct Things(Mutex<HashMap<String, Referent>>);
 
 impl Things {
-    pub(super) fn get(&self, text: &str) -> Option<Thing> {
+    pub(super) fn get(&self, text: &str) -> Option<Referent> {
         let things = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         things.get(text).copied()
     }
 
     /// Keeps a material while there is room.
-    pub(super) fn keep(&self, text: &str, found: Thing) {
+    pub(super) fn keep(&self, text: &str, found: Referent) {
         let mut things = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if things.len() < MOST {
             things.insert(text.to_owned(), found);

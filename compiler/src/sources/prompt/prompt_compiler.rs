@@ -17,7 +17,7 @@ use crate::{
         texture,
     },
     pipeline::{Pass, Pipeline, Ringing},
-    sources::Sourced,
+    sources::SourceOutput,
 };
 use asperity_formats::limits;
 use asperity_texture::model::{
@@ -182,7 +182,7 @@ impl PromptCompiler {
         prompt: &str,
         seed: u64,
         pipeline: &mut Pipeline,
-    ) -> Result<Sourced, PromptError> {
+    ) -> Result<SourceOutput, PromptError> {
         let prompt = prompt.trim();
         let projection = pipeline.run(Pass::Text, || self.project(prompt))?;
         let (z, wanted) = pipeline.run(Pass::Text, || self.resolve_target(&projection))?;
@@ -214,14 +214,14 @@ impl PromptCompiler {
             reading: projection.reading,
             understood: projection.understood,
         };
-        Ok(Sourced {
+        Ok(SourceOutput {
             // Latents far from anything trained can decode to models that ring.
             ringing: Ringing::Stabilised,
             memory: Some(memory),
             certainty: Some(compiled.certainty),
             warnings: compiled.warnings(),
             findings: Some(Arc::new(compiled)),
-            ..Sourced::new(texture)
+            ..SourceOutput::new(texture)
         })
     }
 

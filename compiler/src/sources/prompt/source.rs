@@ -4,7 +4,7 @@ use super::check;
 use crate::{
     passes::reduce::Fidelity,
     pipeline::{Pipeline, Request},
-    sources::{Kind, ManifestSource, Operand, Source, Sourced, Tools, key::Parts},
+    sources::{Kind, ManifestSource, Operand, Source, SourceOutput, Tools, key::Parts},
 };
 use asperity_io::diagnostic::Failure;
 use std::sync::Arc;
@@ -61,7 +61,7 @@ impl Source for Prompt {
         _: &Request,
         tools: &Tools<'_>,
         pipeline: &mut Pipeline,
-    ) -> Result<Sourced, Failure> {
+    ) -> Result<SourceOutput, Failure> {
         check(&self.text)?;
         let prompt_compiler = tools.prompt_compiler()?;
         let mut sourced = prompt_compiler.sourced(&self.text, self.seed, pipeline)?;

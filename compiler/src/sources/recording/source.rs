@@ -11,7 +11,7 @@ use crate::{
     compiled::{Compiled, ErrorReference},
     passes::reduce::Fidelity,
     pipeline::{Pass, Pipeline, Request, Ringing},
-    sources::{Findings, Kind, ManifestSource, Operand, Source, Sourced, Tools, key},
+    sources::{Findings, Kind, ManifestSource, Operand, Source, SourceOutput, Tools, key},
 };
 use asperity_io::diagnostic::Failure;
 use asperity_plot::PlotError;
@@ -66,7 +66,7 @@ impl Source for RecordingFolder {
         _: &Request,
         tools: &Tools<'_>,
         pipeline: &mut Pipeline,
-    ) -> Result<Sourced, Failure> {
+    ) -> Result<SourceOutput, Failure> {
         let model = tools.model()?;
         let analysis = pipeline.run(Pass::Read, || {
             analyse(&self.folder, self.force, tools.clock)
@@ -83,7 +83,7 @@ impl Source for RecordingFolder {
             .checked
             .at_least(Severity::Warning)
             .map(|finding| format!("{} {}: {}", finding.file, finding.channel, finding.what));
-        Ok(Sourced {
+        Ok(SourceOutput {
             truth: Some(ErrorReference::Texture),
             ringing,
             warnings: warnings.collect(),
@@ -92,7 +92,7 @@ impl Source for RecordingFolder {
                 completed,
                 parts,
             })),
-            ..Sourced::new(texture)
+            ..SourceOutput::new(texture)
         })
     }
 }

@@ -12,7 +12,7 @@ use asperity_host::latency::{
     Collector, Conditions, Cyclictest, CyclictestError, Limits, Load, Loading, Machine, Run,
     Series, Verdict, Wakeups, percentile_distribution, write_log,
 };
-use asperity_host::servo::{Clock as _, Event, Inlet, SECOND_NS, Settings, Stage, queues};
+use asperity_host::servo::{Clock as _, Event, RecordReader, SECOND_NS, Settings, Stage, queues};
 use asperity_io::diagnostic::{Failures, one};
 use asperity_io::output::{self, AtomicFile, Outputs};
 use asperity_io::{realtime, system};
@@ -90,19 +90,25 @@ pub(super) fn measure(arguments: &Arguments, console: Console) -> Result<(), Fai
         stop,
     };
     let mut measured = None;
-    let (outlet, inlet) = queues(QUEUE_S * rate_hz as usize);
+    let (record_writer, record_reader) = queues(QUEUE_S * rate_hz as usize);
     let bar = console.activity();
     bar.set_message(format!("measuring for {} s", arguments.seconds));
-    run_loop(setup, &surface, &mut *opened.device, outlet, |attended| {
-        for refusal in refusals(attended.grants) {
-            console.warn(&refusal);
-        }
-        let conditions = conditions.with_grants(attended.grants);
-        let collector = collector(&settings, conditions, arguments.seconds);
-        let over = || attended.servo.is_finished();
-        let series = series.map(|id| outputs.file(id));
-        measured = Some(collect(collector, inlet, series, over, console));
-    })
+    run_loop(
+        setup,
+        &surface,
+        &mut *opened.device,
+        record_writer,
+        |attended| {
+            for refusal in refusals(attended.grants) {
+                console.warn(&refusal);
+            }
+            let conditions = conditions.with_grants(attended.grants);
+            let collector = collector(&settings, conditions, arguments.seconds);
+            let over = || attended.servo.is_finished();
+            let series = series.map(|id| outputs.file(id));
+            measured = Some(collect(collector, record_reader, series, over, console));
+        },
+    )
     .map_err(one)?;
     drop((opened, loading));
     interrupt.released.store(true, Relaxed);
@@ -174,7 +180,7 @@ fn collector(settings: &Settings, conditions: Conditions, seconds: f64) -> Colle
 /// series that cannot be written does not end the measurement.
 fn collect(
     mut collector: Collector,
-    mut inlet: Inlet,
+    mut record_reader: RecordReader,
     series: Option<&mut AtomicFile>,
     over: impl Fn() -> bool,
     console: Console,
@@ -189,14 +195,14 @@ fn collect(
     });
     loop {
         let last = over();
-        while let Some(record) = inlet.record() {
+        while let Some(record) = record_reader.record() {
             collector.record(&record);
             if let Some(Err(error)) = series.as_mut().map(|series| series.record(&record)) {
                 written = Err(error);
                 series = None;
             }
         }
-        while let Some(event) = inlet.event() {
+        while let Some(event) = record_reader.event() {
             match event {
                 Event::Failed { period, fault } => {
                     console.warn(&format!("period {period}: {fault}"));
@@ -208,7 +214,7 @@ fn collect(
             if let Some(Err(error)) = series.map(|series| series.finish().map(drop)) {
                 written = Err(error);
             }
-            return (collector.finish(inlet.lost()), written);
+            return (collector.finish(record_reader.lost()), written);
         }
         sleep(LOOK);
     }

@@ -1,7 +1,7 @@
 //! `asperity-lab record`: a recording of a surface, from a device and an accelerometer.
 
-mod attendant;
 mod screen;
+mod session_monitor;
 mod summary;
 
 use std::path::PathBuf;
@@ -19,12 +19,12 @@ use asperity_io::output::{NewFolder, OutputError, OutputId, Outputs};
 use asperity_lab::capture::{
     self, About, Coverage, FILES, Kind, Plan, Reader, Sensor, Simulated, Take,
 };
-use asperity_lab::servo_session::{OpenDevice, Setup, Surface, run as run_loop, run_unfelt};
+use asperity_lab::servo_session::{OpenDevice, Setup, Surface, run as run_loop, run_passive};
 use asperity_recording::description::Quantity;
 
 use crate::error::{Plain, all};
 use crate::loop_options::{self, Interrupt, LoopOptions, stop_on_interrupt};
-use attendant::{Attendant, End};
+use session_monitor::{End, SessionMonitor};
 use summary::Summary;
 
 /// Record a surface: a device gives the position of the tool, an accelerometer its vibration
@@ -217,13 +217,13 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     let is_stepped = opened.pace != Pace::Clock;
     let late_s = arguments.accel.delay_s + known_s;
     let take = Take::new(plan, f64::from(rate_hz), is_stepped, late_s);
-    let mut attendant = Attendant::new(console, take, reader, simulated);
+    let mut monitor = SessionMonitor::new(console, take, reader, simulated);
     run_on(
         arguments,
         &mut opened,
         rate_hz,
         surface.as_ref(),
-        &mut attendant,
+        &mut monitor,
         &interrupt,
     )?;
     let device = opened.device.description().name.clone();
@@ -231,7 +231,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     drop(opened);
     interrupt.released.store(true, Relaxed);
 
-    let recorded = attendant.finish();
+    let recorded = monitor.finish();
     let Some(part) = capture::part(&recorded.take) else {
         let mut failures = recorded.failures;
         failures.extend(Plain::failure(
@@ -336,7 +336,7 @@ fn run_on(
     opened: &mut OpenDevice,
     rate_hz: u32,
     surface: Option<&Surface>,
-    attendant: &mut Attendant,
+    monitor: &mut SessionMonitor,
     interrupt: &Interrupt,
 ) -> Result<(), Failures> {
     let options = &arguments.options;
@@ -350,17 +350,17 @@ fn run_on(
         seed: options.seed(opened),
         stop: &end_of_run,
     };
-    let (outlet, inlet) = queues(QUEUE_S * rate_hz as usize);
+    let (record_writer, record_reader) = queues(QUEUE_S * rate_hz as usize);
     let device = &mut *opened.device;
     let report = match surface {
-        Some(surface) => run_loop(setup, surface, device, outlet, |attended| {
-            attendant.attend(attended, inlet, &interrupt.stop, &end_of_run);
+        Some(surface) => run_loop(setup, surface, device, record_writer, |attended| {
+            monitor.attend(attended, record_reader, &interrupt.stop, &end_of_run);
         }),
-        None => run_unfelt(setup, device, outlet, |attended| {
-            attendant.attend(attended, inlet, &interrupt.stop, &end_of_run);
+        None => run_passive(setup, device, record_writer, |attended| {
+            monitor.attend(attended, record_reader, &interrupt.stop, &end_of_run);
         }),
     };
-    attendant.report = Some(report.map_err(one)?);
+    monitor.report = Some(report.map_err(one)?);
     Ok(())
 }
 

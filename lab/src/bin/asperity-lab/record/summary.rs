@@ -10,8 +10,8 @@ use asperity_lab::capture::Part;
 use asperity_recording::check::Severity;
 use serde_json::{Value, json};
 
-use super::attendant::{End, Recorded};
 use super::screen;
+use super::session_monitor::{End, Recorded};
 
 /// A recording in its folder.
 pub(super) struct Summary<'s> {

@@ -1,7 +1,7 @@
 //! `asperity-lab servo`: feel a texture or a scene, live.
 
-mod attendant;
 mod live;
+mod session_monitor;
 mod summary;
 
 use std::path::PathBuf;
@@ -20,8 +20,8 @@ use asperity_runtime::Counters;
 
 use crate::error::Plain;
 use crate::loop_options::{self, LoopOptions, stop_on_interrupt};
-use attendant::Attendant;
 use live::Live;
+use session_monitor::SessionMonitor;
 use summary::ServoSummary;
 
 /// Render a texture or a scene on a device in real time
@@ -153,7 +153,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         .studio
         .then(|| Live::start(arguments, &surface, &device_name, rate_hz, console));
     let live = live.transpose()?;
-    let mut attendant = Attendant::new(arguments, console, recorder, live, rate_hz);
+    let mut monitor = SessionMonitor::new(arguments, console, recorder, live, rate_hz);
     let began = Instant::now();
     let mut sum: Option<Report> = None;
     loop {
@@ -168,11 +168,23 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
             seed,
             stop: &end_of_run,
         };
-        let (outlet, inlet) = queues(QUEUE_S * rate_hz as usize);
+        let (record_writer, record_reader) = queues(QUEUE_S * rate_hz as usize);
         let mut next = None;
-        let report = run_loop(setup, &surface, &mut *opened.device, outlet, |attended| {
-            next = attendant.attend(attended, inlet, &surface, &interrupt.stop, &end_of_run);
-        });
+        let report = run_loop(
+            setup,
+            &surface,
+            &mut *opened.device,
+            record_writer,
+            |attended| {
+                next = monitor.attend(
+                    attended,
+                    record_reader,
+                    &surface,
+                    &interrupt.stop,
+                    &end_of_run,
+                );
+            },
+        );
         let report = report.map_err(one)?;
         sum = Some(match sum {
             None => report,
@@ -190,7 +202,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     interrupt.released.store(true, Relaxed);
     let Some(report) = sum else { return Ok(()) };
     let repeated = replayed.map(|replayed| replayed.repeated.counts());
-    attendant.finish(&ServoSummary {
+    monitor.finish(&ServoSummary {
         report,
         surface: &surface,
         device: &device_name,

@@ -6,7 +6,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use asperity_console::Console;
-use asperity_host::servo::{self, Clock as _, Inlet, Monotonic, Report};
+use asperity_host::servo::{self, Clock as _, Monotonic, RecordReader, Report};
 use asperity_io::diagnostic::{Failures, one};
 use asperity_lab::capture::{Ask, Counts, Reader, Simulated, Take};
 use asperity_lab::servo_session::Attended;
@@ -53,7 +53,7 @@ pub(super) struct Recorded {
 }
 
 /// Looks after the loop and the sensor.
-pub(super) struct Attendant {
+pub(super) struct SessionMonitor {
     console: Console,
     take: Take,
     reader: Reader,
@@ -67,7 +67,7 @@ pub(super) struct Attendant {
     pub(super) report: Option<Report>,
 }
 
-impl Attendant {
+impl SessionMonitor {
     pub(super) fn new(
         console: Console,
         take: Take,
@@ -92,7 +92,7 @@ impl Attendant {
     pub(super) fn attend(
         &mut self,
         attended: Attended<'_, '_, '_, '_>,
-        mut inlet: Inlet,
+        mut record_reader: RecordReader,
         stop: &AtomicBool,
         end_of_run: &AtomicBool,
     ) {
@@ -107,7 +107,7 @@ impl Attendant {
         let mut shown = Instant::now();
         loop {
             let is_over = attended.servo.is_finished();
-            self.drain(&mut inlet);
+            self.drain(&mut record_reader);
             if is_over {
                 break;
             }
@@ -128,7 +128,7 @@ impl Attendant {
             }
             sleep(LOOK);
         }
-        self.lost_records = inlet.lost();
+        self.lost_records = record_reader.lost();
     }
 
     fn ends(&mut self, stop: &AtomicBool, is_gone: bool) -> Option<End> {
@@ -152,8 +152,8 @@ impl Attendant {
     }
 
     /// Takes what loop and sensor sent.
-    fn drain(&mut self, inlet: &mut Inlet) {
-        while let Some(record) = inlet.record() {
+    fn drain(&mut self, record_reader: &mut RecordReader) {
+        while let Some(record) = record_reader.record() {
             self.take.tick(&record);
             if let Some((simulated, to)) = &mut self.simulated
                 && let Some(lines) = simulated.tick(&record)
@@ -163,7 +163,7 @@ impl Attendant {
             }
         }
         // A device fault is reported only if the device stays away.
-        while inlet.event().is_some() {}
+        while record_reader.event().is_some() {}
         while let Some(batch) = self.reader.batch() {
             if let Some(told) = self.reader.told() {
                 self.take.batch(told, &batch);

@@ -12,7 +12,7 @@ const MOST: usize = 2;
 const START: &str = "0";
 
 /// Libraries by what names them, as long as the server runs.
-pub(crate) struct Shelf {
+pub(crate) struct LibraryStore {
     start: Option<Arc<Collection>>,
     dropped: Mutex<Dropped>,
 }
@@ -22,17 +22,17 @@ struct Dropped {
     /// How many there were.
     count: u64,
     /// The last ones, the newest at the end.
-    kept: VecDeque<Named>,
+    kept: VecDeque<LibraryHandle>,
 }
 
 /// A library, and what names it.
 #[derive(Clone)]
-pub(crate) struct Named {
+pub(crate) struct LibraryHandle {
     pub(crate) id: String,
     pub(crate) library: Arc<Collection>,
 }
 
-impl Shelf {
+impl LibraryStore {
     pub(crate) fn new(start: Option<Collection>) -> Self {
         Self {
             start: start.map(Arc::new),
@@ -41,18 +41,18 @@ impl Shelf {
     }
 
     /// The library at the start.
-    pub(crate) fn start(&self) -> Option<Named> {
-        self.start.as_ref().map(|library| Named {
+    pub(crate) fn start(&self) -> Option<LibraryHandle> {
+        self.start.as_ref().map(|library| LibraryHandle {
             id: START.to_owned(),
             library: Arc::clone(library),
         })
     }
 
     /// Keeps a library that was dropped; the oldest makes room for it.
-    pub(crate) fn keep(&self, library: Collection) -> Named {
+    pub(crate) fn keep(&self, library: Collection) -> LibraryHandle {
         let mut dropped = self.dropped.lock().unwrap_or_else(PoisonError::into_inner);
         dropped.count += 1;
-        let named = Named {
+        let named = LibraryHandle {
             id: dropped.count.to_string(),
             library: Arc::new(library),
         };
@@ -67,7 +67,7 @@ impl Shelf {
     ///
     /// # Errors
     /// Where there is none, or no longer.
-    pub(crate) fn get(&self, id: &str) -> Result<Named, ApiError> {
+    pub(crate) fn get(&self, id: &str) -> Result<LibraryHandle, ApiError> {
         let dropped = self.dropped.lock().unwrap_or_else(PoisonError::into_inner);
         let found = dropped.kept.iter().find(|named| named.id == id).cloned();
         let start = || self.start().filter(|named| named.id == id);

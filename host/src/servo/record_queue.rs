@@ -18,7 +18,7 @@ const EVENTS: usize = 256;
 
 /// The servo thread's end.
 #[derive(Debug)]
-pub struct Outlet {
+pub struct RecordWriter {
     records: Producer<Record>,
     events: Producer<Event>,
     lost: Arc<AtomicU64>,
@@ -26,7 +26,7 @@ pub struct Outlet {
 
 /// The other thread's end.
 #[derive(Debug)]
-pub struct Inlet {
+pub struct RecordReader {
     records: Consumer<Record>,
     events: Consumer<Event>,
     lost: Arc<AtomicU64>,
@@ -34,24 +34,24 @@ pub struct Inlet {
 
 /// Both ends of queues with room for so many records.
 #[must_use]
-pub fn queues(records: usize) -> (Outlet, Inlet) {
+pub fn queues(records: usize) -> (RecordWriter, RecordReader) {
     let (to_records, from_records) = RingBuffer::new(records.max(1));
     let (to_events, from_events) = RingBuffer::new(EVENTS);
     let lost = Arc::new(AtomicU64::new(0));
-    let outlet = Outlet {
+    let record_writer = RecordWriter {
         records: to_records,
         events: to_events,
         lost: Arc::clone(&lost),
     };
-    let inlet = Inlet {
+    let record_reader = RecordReader {
         records: from_records,
         events: from_events,
         lost,
     };
-    (outlet, inlet)
+    (record_writer, record_reader)
 }
 
-impl Observer for Outlet {
+impl Observer for RecordWriter {
     #[inline]
     fn tick(&mut self, record: &Record) {
         if self.records.push(*record).is_err() {
@@ -66,7 +66,7 @@ impl Observer for Outlet {
     }
 }
 
-impl Inlet {
+impl RecordReader {
     /// The next record, if there is one.
     pub fn record(&mut self) -> Option<Record> {
         self.records.pop().ok()

@@ -20,7 +20,7 @@ use asperity_texture::{
 use std::cell::RefCell;
 
 /// The looks of one search.
-pub(super) struct Look<'a> {
+pub(super) struct AttributeCache<'a> {
     editor: &'a LatentEditor<'a>,
     request: &'a Request,
     meter: RefCell<Meter>,
@@ -39,7 +39,7 @@ enum State {
     Kept,
 }
 
-impl<'a> Look<'a> {
+impl<'a> AttributeCache<'a> {
     pub(super) fn new(editor: &'a LatentEditor<'a>, request: &'a Request) -> Self {
         Self {
             editor,

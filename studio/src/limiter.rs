@@ -9,12 +9,12 @@ use std::{
 const MOST: usize = 4;
 
 /// Turns that are free.
-pub(crate) struct Turns {
+pub(crate) struct Limiter {
     free: Mutex<usize>,
     given_back: Condvar,
 }
 
-impl Turns {
+impl Limiter {
     /// Turns of those who compute.
     pub(crate) fn computing() -> Self {
         Self::new(available_parallelism().map_or(1, usize::from).min(MOST))
@@ -48,7 +48,7 @@ impl Turns {
 }
 
 /// A turn that was taken.
-struct Turn<'a>(&'a Turns);
+struct Turn<'a>(&'a Limiter);
 
 impl Drop for Turn<'_> {
     fn drop(&mut self) {
@@ -69,7 +69,7 @@ mod tests {
 
     #[test]
     fn no_more_work_at_once_than_turns_and_a_panic_keeps_none() {
-        let turns = Turns::computing();
+        let turns = Limiter::computing();
         let all = *turns.free.lock().unwrap();
         for _ in 0..all {
             let work = AssertUnwindSafe(|| turns.take(|| panic!("a test's panic")));

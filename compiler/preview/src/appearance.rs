@@ -4,7 +4,7 @@ use crate::color::Rgb;
 
 /// Everything a pattern needs.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Look {
+pub(crate) struct Appearance {
     /// Colours of the pattern's parts; the last one stands for those that are left out.
     pub(crate) colors: Vec<Rgb>,
     /// How many features go over the patch; the pattern's own number if `None`.
@@ -22,7 +22,7 @@ pub(crate) struct Look {
     pub(crate) seed: u32,
 }
 
-impl Look {
+impl Appearance {
     /// The colour of a part.
     pub(crate) fn color(&self, part: usize) -> Rgb {
         let last = self.colors.len().saturating_sub(1);
@@ -40,12 +40,12 @@ impl Look {
         ((wanted + 0.5) as i32).clamp(1, 200)
     }
 
-    /// As [`Look::count`], an even number.
+    /// As [`Appearance::count`], an even number.
     pub(crate) fn even(&self, usual: f32) -> i32 {
         self.multiple(usual, 2)
     }
 
-    /// As [`Look::count`], a multiple of `of`.
+    /// As [`Appearance::count`], a multiple of `of`.
     pub(crate) fn multiple(&self, usual: f32, of: i32) -> i32 {
         ((self.count(usual) + of / 2) / of).max(1) * of
     }

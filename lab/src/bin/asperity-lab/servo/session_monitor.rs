@@ -8,7 +8,7 @@ use std::time::{Duration, Instant, SystemTime};
 
 use asperity_console::Console;
 use asperity_formats::Asset;
-use asperity_host::servo::{Event, Inlet, Record};
+use asperity_host::servo::{Event, Record, RecordReader};
 use asperity_host::session_log::TextureInfo;
 use asperity_io::diagnostic::{Failures, one, report as told};
 use asperity_io::shown::counted;
@@ -27,7 +27,7 @@ const LOOK: Duration = Duration::from_millis(20);
 const SELDOM: Duration = Duration::from_millis(250);
 
 /// Looks after a loop from another thread.
-pub(super) struct Attendant<'c> {
+pub(super) struct SessionMonitor<'c> {
     console: Console,
     /// The file that may change, and what it is read with.
     watched: Option<(&'c Path, &'c LoopOptions)>,
@@ -49,7 +49,7 @@ pub(super) struct Attendant<'c> {
     rate_hz: f32,
 }
 
-impl<'c> Attendant<'c> {
+impl<'c> SessionMonitor<'c> {
     pub(super) fn new(
         arguments: &'c Arguments,
         console: Console,
@@ -85,7 +85,7 @@ impl<'c> Attendant<'c> {
     pub(super) fn attend(
         &mut self,
         mut attended: Attended<'_, '_, '_, '_>,
-        mut inlet: Inlet,
+        mut record_reader: RecordReader,
         surface: &Surface,
         stop: &AtomicBool,
         end_of_run: &AtomicBool,
@@ -103,7 +103,7 @@ impl<'c> Attendant<'c> {
         let mut waiting: Option<Surface> = None;
         loop {
             let over = attended.servo.is_finished();
-            ticks += self.drain(&mut inlet);
+            ticks += self.drain(&mut record_reader);
             if over {
                 break;
             }
@@ -131,7 +131,7 @@ impl<'c> Attendant<'c> {
             }
             sleep(LOOK);
         }
-        self.lost += inlet.lost();
+        self.lost += record_reader.lost();
         let next = next.filter(|_| !stop.load(Relaxed));
         if next.is_some() && self.recorder.as_mut().is_some_and(Recorder::begin_anew) {
             self.told_of_recorder = true;
@@ -172,9 +172,9 @@ impl<'c> Attendant<'c> {
     }
 
     /// Takes what the loop has sent, and counts the ticks.
-    fn drain(&mut self, inlet: &mut Inlet) -> u64 {
+    fn drain(&mut self, record_reader: &mut RecordReader) -> u64 {
         let mut ticks = 0;
-        while let Some(record) = inlet.record() {
+        while let Some(record) = record_reader.record() {
             ticks += 1;
             self.missed += record.missed;
             if let Some(recorder) = &mut self.recorder {
@@ -192,7 +192,7 @@ impl<'c> Attendant<'c> {
             live.hand_over();
         }
         self.tell_of_recorder();
-        while let Some(event) = inlet.event() {
+        while let Some(event) = record_reader.event() {
             let told = match event {
                 Event::Failed { period, fault } => {
                     format!("period {period}: {fault}; the force goes to zero")
