@@ -44,11 +44,11 @@ pub(crate) struct Library<'a> {
 }
 
 impl<'a> Library<'a> {
-    pub(crate) fn of(named: &'a LibraryHandle) -> Self {
+    pub(crate) fn of(handle: &'a LibraryHandle) -> Self {
         Self {
-            id: &named.id,
-            name: named.library.name(),
-            textures: named.library.textures(),
+            id: &handle.id,
+            name: handle.library.name(),
+            textures: handle.library.textures(),
         }
     }
 }
@@ -110,7 +110,7 @@ pub(crate) fn about(
         prompts: prompts.exist(),
         library: start.map(Library::of),
         folder: start
-            .and_then(|named| named.library.folder())
+            .and_then(|handle| handle.library.folder())
             .map(|folder| folder.display().to_string()),
         words: if prompts.exist() {
             suggestions()

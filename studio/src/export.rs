@@ -109,15 +109,15 @@ pub fn export(
     }
     writer.write("api/about.json", &studio.about_exported(served))?;
     // The library that the studio was started with, which is there.
-    if let Some(named) = studio.start() {
+    if let Some(handle) = studio.start() {
         let ids = (0..textures).into_par_iter().map(|at| {
-            let id = writer.texture(&studio, &named, at)?;
+            let id = writer.texture(&studio, &handle, at)?;
             done();
             Ok(id)
         });
         let ids: Vec<String> = ids.collect::<Result<_, ExportError>>()?;
-        let columns = named.library.columns_with(&named.id, &ids);
-        writer.write(&format!("api/library/{}.json", named.id), &columns)?;
+        let columns = handle.library.columns_with(&handle.id, &ids);
+        writer.write(&format!("api/library/{}.json", handle.id), &columns)?;
     }
     writer.folder.commit()?;
     Ok(Exported {
@@ -141,10 +141,10 @@ impl Writer {
     fn texture(
         &self,
         studio: &Studio,
-        named: &LibraryHandle,
+        handle: &LibraryHandle,
         at: usize,
     ) -> Result<String, ExportError> {
-        let library = &named.library;
+        let library = &handle.library;
         let fail = |error: ApiError| ExportError::Texture {
             name: library.names().nth(at).unwrap_or_default().to_owned(),
             error: error.error,
@@ -153,7 +153,7 @@ impl Writer {
         let texture = library.texture(at).map_err(fail)?;
         let shown = studio.shown(&texture);
         self.write(
-            &format!("api/library/{}/{at}.json", named.id),
+            &format!("api/library/{}/{at}.json", handle.id),
             shown.as_bytes(),
         )?;
         let id = texture.id();

@@ -8,10 +8,10 @@ use std::{
 
 /// Dropped libraries that are kept, each of which is in memory.
 const MOST: usize = 2;
-/// What names the library at the start.
+/// Identifier of the library at the start.
 const START: &str = "0";
 
-/// Libraries by what names them, as long as the server runs.
+/// Libraries by identifier, as long as the server runs.
 pub(crate) struct LibraryStore {
     start: Option<Arc<Collection>>,
     dropped: Mutex<Dropped>,
@@ -25,7 +25,7 @@ struct Dropped {
     kept: VecDeque<LibraryHandle>,
 }
 
-/// A library, and what names it.
+/// A library and its identifier.
 #[derive(Clone)]
 pub(crate) struct LibraryHandle {
     pub(crate) id: String,
@@ -52,15 +52,15 @@ impl LibraryStore {
     pub(crate) fn keep(&self, library: Collection) -> LibraryHandle {
         let mut dropped = self.dropped.lock().unwrap_or_else(PoisonError::into_inner);
         dropped.count += 1;
-        let named = LibraryHandle {
+        let handle = LibraryHandle {
             id: dropped.count.to_string(),
             library: Arc::new(library),
         };
-        dropped.kept.push_back(named.clone());
+        dropped.kept.push_back(handle.clone());
         while dropped.kept.len() > MOST {
             dropped.kept.pop_front();
         }
-        named
+        handle
     }
 
     /// The library of this name.
@@ -69,8 +69,8 @@ impl LibraryStore {
     /// Where there is none, or no longer.
     pub(crate) fn get(&self, id: &str) -> Result<LibraryHandle, ApiError> {
         let dropped = self.dropped.lock().unwrap_or_else(PoisonError::into_inner);
-        let found = dropped.kept.iter().find(|named| named.id == id).cloned();
-        let start = || self.start().filter(|named| named.id == id);
+        let found = dropped.kept.iter().find(|handle| handle.id == id).cloned();
+        let start = || self.start().filter(|handle| handle.id == id);
         found.or_else(start).ok_or_else(|| {
             ApiError::new(
                 Status::NotFound,

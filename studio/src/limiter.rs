@@ -1,4 +1,5 @@
-//! Who may work now: compiling takes all processors, so a few at a time are as fast as many, and take less memory.
+//! Limits how many requests work at once: compiling takes all processors, so a few at a time are as fast as many, and
+//! take less memory.
 
 use std::{
     sync::{Condvar, Mutex, PoisonError},
@@ -8,19 +9,19 @@ use std::{
 /// Most requests that compute, or whose large bodies are in memory, at once.
 const MOST: usize = 4;
 
-/// Turns that are free.
+/// A counting semaphore.
 pub(crate) struct Limiter {
     free: Mutex<usize>,
     given_back: Condvar,
 }
 
 impl Limiter {
-    /// Turns of those who compute.
+    /// For requests that compute.
     pub(crate) fn computing() -> Self {
         Self::new(available_parallelism().map_or(1, usize::from).min(MOST))
     }
 
-    /// Turns of those who send large bodies.
+    /// For requests that send large bodies.
     pub(crate) fn sending() -> Self {
         Self::new(MOST)
     }
@@ -69,17 +70,17 @@ mod tests {
 
     #[test]
     fn no_more_work_at_once_than_turns_and_a_panic_keeps_none() {
-        let turns = Limiter::computing();
-        let all = *turns.free.lock().unwrap();
+        let limiter = Limiter::computing();
+        let all = *limiter.free.lock().unwrap();
         for _ in 0..all {
-            let work = AssertUnwindSafe(|| turns.take(|| panic!("a test's panic")));
+            let work = AssertUnwindSafe(|| limiter.take(|| panic!("a test's panic")));
             assert!(catch_unwind(work).is_err());
         }
         let (now, most) = (AtomicUsize::new(0), AtomicUsize::new(0));
         scope(|threads| {
             for _ in 0..16 {
                 threads.spawn(|| {
-                    turns.take(|| {
+                    limiter.take(|| {
                         most.fetch_max(now.fetch_add(1, Ordering::SeqCst) + 1, Ordering::SeqCst);
                         (0..100).for_each(|_| yield_now());
                         now.fetch_sub(1, Ordering::SeqCst);
@@ -88,6 +89,6 @@ mod tests {
             }
         });
         assert!((1..=all).contains(&most.into_inner()));
-        assert_eq!(*turns.free.lock().unwrap(), all);
+        assert_eq!(*limiter.free.lock().unwrap(), all);
     }
 }

@@ -108,11 +108,10 @@ fn the_level_of_a_sentence_tells_whether_it_is_met() {
         figures.push((format!("{level}_met"), met.to_string()));
         figures.push((format!("{level}_of"), all.to_string()));
     }
-    let figure = |n: usize| (figures[n].0.as_str(), figures[n].1.clone());
     figures::hold_at_full(
         &format!("certainty_{}", name()),
         "-p asperity --test it the_level_of_a_sentence",
-        std::array::from_fn::<_, 13, _>(figure),
+        figures,
     );
 }
 
@@ -300,12 +299,10 @@ fn a_sentence_feels_like_what_is_touched_in_it() {
             (format!("{name}_of"), of.to_string()),
         ]
     });
-    let figures: Vec<(String, String)> = figures.collect();
-    let figure = |n: usize| (figures[n].0.as_str(), figures[n].1.clone());
     figures::hold_at_full(
         &format!("sentences_{}", name()),
         "-p asperity --test it a_sentence_feels",
-        std::array::from_fn::<_, 10, _>(figure),
+        figures,
     );
 }
 

@@ -41,7 +41,11 @@ pub fn folder() -> PathBuf {
 /// # Panics
 ///
 /// Where the set differs or cannot be read or written.
-pub fn hold<const N: usize>(name: &str, command: &str, figures: [(&str, String); N]) {
+pub fn hold(
+    name: &str,
+    command: &str,
+    figures: impl IntoIterator<Item = (impl Into<String>, String)>,
+) {
     let command = format!("cargo test --release {command}");
     hold_to(name, &Set::new(&command, figures));
 }
@@ -51,7 +55,11 @@ pub fn hold<const N: usize>(name: &str, command: &str, figures: [(&str, String);
 /// # Panics
 ///
 /// As [`hold`].
-pub fn hold_at_full<const N: usize>(name: &str, command: &str, figures: [(&str, String); N]) {
+pub fn hold_at_full(
+    name: &str,
+    command: &str,
+    figures: impl IntoIterator<Item = (impl Into<String>, String)>,
+) {
     if Size::asked() == Size::Full {
         let command = format!("{}=full cargo test --release {command}", size::VARIABLE);
         hold_to(name, &Set::new(&command, figures));

@@ -57,13 +57,18 @@ impl Error for SetError {}
 
 impl Set {
     /// Figures that a test holds.
-    pub fn new<const N: usize>(command: &str, figures: [(&str, String); N]) -> Self {
-        let named = figures.map(|(name, figure)| (name.to_owned(), figure));
+    pub fn new(
+        command: &str,
+        figures: impl IntoIterator<Item = (impl Into<String>, String)>,
+    ) -> Self {
+        let named = figures
+            .into_iter()
+            .map(|(name, figure)| (name.into(), figure));
         Self {
             command: command.to_owned(),
             conditions: None,
             measured: None,
-            figures: named.into(),
+            figures: named.collect(),
         }
     }
 
@@ -174,6 +179,7 @@ fn commit(root: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::iter::empty;
 
     #[test]
     fn a_set_comes_back_from_its_file() {
@@ -193,13 +199,20 @@ mod tests {
         fs::create_dir(root.join("src")).unwrap();
         fs::write(root.join("src/a"), "one").unwrap();
         fs::write(root.join("b"), "one").unwrap();
-        let set = Set::new("x", []).of_now(root, vec!["src".into()]).unwrap();
+        let set = Set::new("x", empty::<(String, String)>())
+            .of_now(root, vec!["src".into()])
+            .unwrap();
         assert_eq!(set.is_stale(root).unwrap(), Some(false));
         fs::write(root.join("b"), "two").unwrap();
         fs::write(root.join("src/page.md"), "two").unwrap();
         assert_eq!(set.is_stale(root).unwrap(), Some(false));
         fs::write(root.join("src/a"), "two").unwrap();
         assert_eq!(set.is_stale(root).unwrap(), Some(true));
-        assert_eq!(Set::new("x", []).is_stale(root).unwrap(), None);
+        assert_eq!(
+            Set::new("x", empty::<(String, String)>())
+                .is_stale(root)
+                .unwrap(),
+            None
+        );
     }
 }

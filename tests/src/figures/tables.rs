@@ -52,6 +52,7 @@ fn sections(text: &str) -> BTreeMap<String, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::iter::empty;
 
     #[test]
     fn each_section_is_a_figure_and_rows_are_counted() {
@@ -60,7 +61,7 @@ mod tests {
             "head\n\n## wall\n\n{table}\n\n## Above\n\n### Two words, 3\n\n{table}\n\n## line\n\na\n"
         );
         let root = crate::figures::root();
-        let set = Set::new("x", [])
+        let set = Set::new("x", empty::<(String, String)>())
             .of_now(&root, vec!["Cargo.toml".into()])
             .unwrap();
         let set = renewed(set, &text, &root).unwrap();
@@ -69,6 +70,6 @@ mod tests {
         assert!(set.figures.contains_key("two_words_3") && !set.figures.contains_key("above"));
         assert_eq!(set.figures["line"], "a");
         assert_eq!(set.is_stale(&root).unwrap(), Some(false));
-        assert!(renewed(Set::new("x", []), &text, &root).is_err());
+        assert!(renewed(Set::new("x", empty::<(String, String)>()), &text, &root).is_err());
     }
 }

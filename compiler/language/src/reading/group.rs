@@ -152,9 +152,10 @@ fn of_one_face(mut groups: Vec<Group>) -> Vec<Group> {
         return groups;
     }
     for group in &mut groups {
-        if group.head().is_some_and(is_face) {
-            let last = group.items.iter().rposition(is_thing);
-            last.map(|last| group.items.remove(last));
+        if group.head().is_some_and(is_face)
+            && let Some(last) = group.items.iter().rposition(is_thing)
+        {
+            group.items.remove(last);
         }
     }
     groups

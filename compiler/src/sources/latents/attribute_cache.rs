@@ -1,4 +1,4 @@
-//! What latents feel like, each part looked at once: a search comes back to where it began, and moves one part while
+//! Attributes of latents, each part measured once: a search comes back to where it began, and moves one part while
 //! the others stay.
 
 use super::{error::EditError, latent_editor::LatentEditor};
@@ -19,7 +19,7 @@ use asperity_texture::{
 };
 use std::cell::RefCell;
 
-/// The looks of one search.
+/// The attributes of the latents of one search.
 pub(super) struct AttributeCache<'a> {
     editor: &'a LatentEditor<'a>,
     request: &'a Request,
@@ -30,7 +30,7 @@ pub(super) struct AttributeCache<'a> {
     centroids: Memo<(State, Latent, f64), Option<f64>>,
 }
 
-/// What of a texture is looked at.
+/// The state of a texture that is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum State {
     /// All that is decoded.

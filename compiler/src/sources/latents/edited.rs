@@ -57,22 +57,22 @@ impl LatentEditor<'_> {
         self.searched(latents, sliders, &AttributeCache::new(self, request))
     }
 
-    /// The same, with looks that may know these latents already.
+    /// The same, with a cache that may know these latents already.
     pub(super) fn searched(
         &self,
         latents: &Latents,
         sliders: &Sliders,
-        look: &AttributeCache<'_>,
+        cache: &AttributeCache<'_>,
     ) -> Result<Latents, EditError> {
         if sliders.are_still() {
             return Ok(*latents);
         }
-        let before = look.kept(latents)?;
-        let through = self.through(latents, sliders, look, &before)?;
-        let (missing, edited) = self.closed(through, sliders, look, &before)?;
+        let before = cache.kept(latents)?;
+        let through = self.through(latents, sliders, cache, &before)?;
+        let (missing, edited) = self.closed(through, sliders, cache, &before)?;
         let sharp = missing[Axis::Sharp as usize].abs();
         if sharp > SHARP && sliders.sharper == 0.0 {
-            let (plain, shifted) = self.closed(*latents, sliders, look, &before)?;
+            let (plain, shifted) = self.closed(*latents, sliders, cache, &before)?;
             if worst(&plain) < worst(&missing) {
                 return Ok(shifted);
             }
@@ -85,14 +85,14 @@ impl LatentEditor<'_> {
         &self,
         latents: &Latents,
         sliders: &Sliders,
-        look: &AttributeCache<'_>,
+        cache: &AttributeCache<'_>,
         before: &Attributes,
     ) -> Result<Latents, EditError> {
         let mut aim = *sliders;
         let mut best = (f64::INFINITY, *latents);
         for _ in 0..CORRECTIONS {
-            let edited = self.moved(latents, sliders, &aim, look)?;
-            let missing = self.missing_from(&look.kept(&edited)?, sliders, before);
+            let edited = self.moved(latents, sliders, &aim, cache)?;
+            let missing = self.missing_from(&cache.kept(&edited)?, sliders, before);
             // What is missing of the others can be moved after decoding.
             let sharp = missing[Axis::Sharp as usize].abs();
             let distance = sharp.max(0.5 * worst(&missing));
@@ -116,13 +116,13 @@ impl LatentEditor<'_> {
         &self,
         latents: Latents,
         sliders: &Sliders,
-        look: &AttributeCache<'_>,
+        cache: &AttributeCache<'_>,
         before: &Attributes,
     ) -> Result<(Missing, Latents), EditError> {
         let mut now = latents;
         let mut best: Option<(Missing, Latents)> = None;
         for _ in 0..=CLOSINGS {
-            let after = look.kept(&now)?;
+            let after = cache.kept(&now)?;
             let missing = self.missing_from(&after, sliders, before);
             if best.is_none_or(|(least, _)| sum_of_squares(&missing) < sum_of_squares(&least)) {
                 best = Some((missing, now));
@@ -163,9 +163,9 @@ impl LatentEditor<'_> {
         latents: &Latents,
         sliders: &Sliders,
         aim: &Sliders,
-        look: &AttributeCache<'_>,
+        cache: &AttributeCache<'_>,
     ) -> Result<Latents, EditError> {
-        let before = look.decoded(latents)?;
+        let before = cache.decoded(latents)?;
         let mut edited = *latents;
         let asked = |axis: Axis| sliders.along(axis) != 0.0;
         let target = |axis: Axis| {
@@ -181,7 +181,7 @@ impl LatentEditor<'_> {
                         slide: *z,
                         ..*latents
                     };
-                    self.seen(&slide, &axes, look)
+                    self.seen(&slide, &axes, cache)
                 };
                 let (start, gradients) = (&latents.slide, axes.map(gradient));
                 edited.slide = reach(start, &gradients, &self.metric, &[rough, sharp], seen)?.z;
@@ -195,7 +195,7 @@ impl LatentEditor<'_> {
                     tap: *z,
                     ..*latents
                 };
-                self.seen(&tap, &[Axis::Hard], look)
+                self.seen(&tap, &[Axis::Hard], cache)
             };
             let gradients = [gradient(Axis::Hard)];
             edited.tap = reach(&latents.tap, &gradients, &self.metric, &[hard], seen)?.z;
@@ -206,7 +206,7 @@ impl LatentEditor<'_> {
             let factor = libm::exp(-latents.shift.slippery);
             let seen = |z: &Latent| {
                 let attributes = Attributes {
-                    mu: factor * look.mu(z),
+                    mu: factor * cache.mu(z),
                     ..before
                 };
                 self.scale.place(Axis::Slippery, &attributes).unwrap_or(0.0)
@@ -222,9 +222,9 @@ impl LatentEditor<'_> {
         &self,
         latents: &Latents,
         axes: &[Axis],
-        look: &AttributeCache<'_>,
+        cache: &AttributeCache<'_>,
     ) -> Result<Option<Vec<f64>>, EditError> {
-        let attributes = look.decoded(latents)?;
+        let attributes = cache.decoded(latents)?;
         let places = axes.iter().map(|&axis| self.scale.place(axis, &attributes));
         Ok(places.collect())
     }

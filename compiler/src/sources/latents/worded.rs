@@ -88,8 +88,8 @@ impl LatentEditor<'_> {
         if asked.is_nothing() {
             return Err(EditError::NotUnderstood(text.to_owned()));
         }
-        let look = AttributeCache::new(self, request);
-        let base = look.kept(latents)?;
+        let cache = AttributeCache::new(self, request);
+        let base = cache.kept(latents)?;
         let mut start = *latents;
         if let Some(towards) = &asked.towards {
             let projection = self.prompt_compiler.project(&towards.thing)?;
@@ -97,11 +97,11 @@ impl LatentEditor<'_> {
             let thing = Latents::whole(meaning.z).shifted(meaning.shift);
             start = Latents::between(latents, &thing, towards.share);
         }
-        let now = look.kept(&start)?;
+        let now = cache.kept(&start)?;
         let shift = from_base(&base, &now, &asked.changes);
         let sliders = steps(&self.scale, &now, &shift);
         Ok(Worded {
-            latents: self.searched(&start, &sliders, &look)?,
+            latents: self.searched(&start, &sliders, &cache)?,
             sliders,
             towards: asked.towards,
             unread: asked.unread,
