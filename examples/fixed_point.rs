@@ -4,7 +4,7 @@
 //! `Fixed`: numbers of 32 bits that carry their binary point in their type. The asset, the seed
 //! and the noise are the same, so the forces are, too, but for rounding.
 
-use asperity::{builtin, lower::lower};
+use asperity::{emit::lower::lower, sources::builtin};
 use asperity_formats::Asset;
 use asperity_runtime::{
     Config, Fixed, Float, HostCapacities, RenderArithmetic, Renderer, Sample, State, Texture,

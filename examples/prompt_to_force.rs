@@ -4,8 +4,8 @@
 //! that ships textures writes the bytes to one and embeds or maps it.
 
 use asperity::{
-    inference::Backend,
-    prompt::{CompiledPrompt, Options, PromptCompiler},
+    learned::inference::Backend,
+    sources::prompt::{CompiledPrompt, Options, PromptCompiler},
 };
 use asperity_formats::Asset;
 use asperity_runtime::{Config, HostTexture, Renderer, Sample, State};

@@ -5,10 +5,10 @@
 
 use asperity::{
     diagnostic::{Failures, one, report},
-    inference::Backend,
+    learned::inference::Backend,
     library::Request,
-    prompt::PromptCompiler,
     scene::{Budget, Description, build},
+    sources::prompt::PromptCompiler,
 };
 use asperity_formats::Library;
 use asperity_runtime::{Config, HostScene, HostTexture, Renderer, Sample, SceneState};

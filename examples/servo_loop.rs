@@ -8,7 +8,7 @@
 //!
 //! Device, hand and faults are simulated, one step in each servo period.
 
-use asperity::{builtin, lower::lower};
+use asperity::{emit::lower::lower, sources::builtin};
 use asperity_formats::Asset;
 use asperity_runtime::{Config, Exchange, Flags, HostTexture, Output, Renderer, Sample};
 use asperity_sim::fault::{FaultInjector, FaultPlan, SampleFault};

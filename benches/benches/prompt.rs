@@ -5,8 +5,8 @@
 //! timed.
 
 use asperity::{
-    inference::{Backend, BackendName},
-    prompt::{Options, PromptCompiler},
+    learned::inference::{Backend, BackendName},
+    sources::prompt::{Options, PromptCompiler},
 };
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;

@@ -2,10 +2,7 @@
 //! assets, and verifies each asset before returning it.
 //!
 //! ```
-//! use asperity::{
-//!     inference::Backend,
-//!     prompt::{Options, PromptCompiler},
-//! };
+//! use asperity::{learned::inference::Backend, sources::prompt::{Options, PromptCompiler}};
 //! use asperity_formats::Asset;
 //!
 //! // The text encoder and the learned model are embedded: no file, no network.
@@ -28,64 +25,51 @@
 //! 1. [`driver`]: the one way from any source to verified bytes, which commands and libraries take too.
 //!    [`compiled::Compiled`] is what it returns.
 //! 2. [`sources`]: what a texture can be made from, and the trait that a source of your own implements.
-//! 3. [`model`]: a texture between its source and its bytes. [`lower`] encodes it, [`verify`] tests it, [`raise`] reads
-//!    it back.
-//! 4. [`library`] for many textures, [`scene`] for several surfaces, [`edit`] to change a texture later.
+//! 3. [`model`]: a texture between its source and its bytes. [`emit::lower`] encodes it, [`emit::verify`] tests it,
+//!    [`emit::raise`] reads it back.
+//! 4. [`library`] for many textures, [`scene`] for several surfaces, [`sources::latents`] to change a texture later.
 //!
 //! `docs/reading.md` in the repository follows a prompt through these modules, with the equations.
 //!
-//! # Where everything is
+//! # Folders
 //!
-//! A texture passes through these folders from its source to its bytes; the others serve all of them:
+//! A texture passes through these folders from its source to its bytes; the others serve all of them. A module's public
+//! path is its folder.
 //!
-//! | folder | holds |
+//! | folder | contents |
 //! |---|---|
-//! | `sources/` | what a texture is made from: one trait ([`sources`]), and a folder or a file for each source |
-//! | | [`prompt`], [`hatt`], [`recording`], [`model_file`], [`effects`], [`builtin`]; an asset as it is |
-//! | | latents, mixed and edited: [`edit`] |
-//! | `compiled/` | the result: [`compiled`] textures, their reports, their distance from the source |
-//! | `learned/` | the [`learned`] model, [`embedded`] or in a folder, its [`text`] encoders, and their [`inference`] |
-//! | `passes/` | from model to model: [`rerate`], [`stabilise`], [`reduce`], [`ceiling`], [`triangulate`] |
-//! | `emit/` | from model to bytes and back: [`lower`], [`verify`], [`textures`], [`raise`] |
-//! | `library/` | many textures: the [`library`] of a manifest, its cache, what changed in it |
-//! | `edit_memory/` | what an asset remembers of how it was made, for later edits: [`edit_memory`] |
-//! | `interchange/` | other tools' formats: the [`interchange`] |
-//! | `views/` | for eyes and ears: [`inspect`], [`plot`], [`preview`], [`diffusion`], [`listen`], [`render`] |
+//! | [`sources`] | one trait, and a folder or a file for each source; latents, mixed and edited |
+//! | [`compiled`] | the result: textures, their reports, their distance from the source |
+//! | [`learned`] | the learned model, embedded or in a folder, its text encoders, and their inference |
+//! | [`passes`] | from model to model: rate, stability, size, ceiling |
+//! | [`emit`] | from model to bytes and back, one texture or a library of them |
+//! | [`library`] | many textures: the library of a manifest, its cache, its changes |
+//! | [`edit_memory`] | what an asset remembers of how it was made, for later edits |
+//! | [`interchange`] | other tools' formats |
+//! | [`views`] | pictures and sound: plots, previews, playback, renderings |
 //!
 //! The model between source and bytes, in f64 and SI units, and its mathematics are a crate below this one,
-//! [`asperity_texture`]. Its modules are named here as well: the [`model`], its [`mesh`], [`mixture`], [`attributes`],
-//! [`defaults`] and [`tap_synthesis`]; [`lsf`], [`levinson`], [`level`], [`reflection`], [`resample`], [`spectrum`] and
-//! [`impact`].
+//! [`asperity_texture`], whose folders [`model`] and [`signal`] are named here as well.
 //!
 //! The [`driver`] takes any source through the passes of the [`pipeline`] to verified bytes. [`scene`] packs several
 //! textures within a budget. Below this crate, `asperity-io` reads files within limits, writes them whole or not at
 //! all, and words failures with their remedy; above it, `asperity-console` and the command `asperity` talk to people.
 #![forbid(unsafe_code)]
 
-mod emit;
-mod passes;
-mod views;
-
 pub mod compiled;
 pub mod driver;
 pub mod edit_memory;
+pub mod emit;
 pub mod interchange;
 pub mod learned;
 pub mod library;
+pub mod passes;
 pub mod pipeline;
 pub mod scene;
 pub mod sources;
+pub mod views;
 
 /// What every error of this crate says besides its cause: the remedy.
 pub use asperity_io::diagnostic;
 
-// Users name a module without its folder, so that files can move between the stages.
-pub use asperity_texture::model::{self, attributes, defaults, mesh, mixture, tap_synthesis};
-pub use asperity_texture::signal::{
-    impact, level, levinson, lsf, quantile, reflection, resample, spectrum,
-};
-pub use emit::{lower, raise, textures, verify};
-pub use learned::{embedded, inference, text};
-pub use passes::{ceiling, reduce, rerate, stabilise, triangulate};
-pub use sources::{builtin, effects, hatt, latents as edit, model_file, prompt, recording};
-pub use views::{diffusion, inspect, listen, plot, preview, render};
+pub use asperity_texture::{model, signal};

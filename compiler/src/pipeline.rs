@@ -5,11 +5,7 @@
 //! Every pass is named and timed.
 //!
 //! ```
-//! use asperity::{
-//!     builtin,
-//!     pipeline::{Pass, Pipeline},
-//!     reduce::Fidelity,
-//! };
+//! use asperity::{sources::builtin, pipeline::{Pass, Pipeline}, passes::reduce::Fidelity};
 //!
 //! let mut pipeline = Pipeline::default();
 //! let reduced = pipeline.reduce(&builtin::texture(), Fidelity::Auto).texture;

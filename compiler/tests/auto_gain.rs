@@ -1,11 +1,11 @@
 //! Auto-gain over a library's worth of prompts: what is felt stays within the device, and in order.
 
 use asperity::{
-    inference::Backend,
-    lower::lower,
+    emit::lower::lower,
+    learned::inference::Backend,
+    passes::reduce::Fidelity,
     pipeline::Pipeline,
-    prompt::{Options, PromptCompiler},
-    reduce::Fidelity,
+    sources::prompt::{Options, PromptCompiler},
 };
 use asperity_formats::Asset;
 use asperity_tests::{figures, oracle, size::sized_or};

@@ -1,17 +1,21 @@
 //! Edits in the latent do what their sliders say, over random textures of the shipped model.
 
 use asperity::{
-    attributes::{self, Attributes},
     compiled::Compiled,
     driver,
-    edit::{AXES, Axis, History, LatentEditor, Latents, Sliders},
-    inference::Backend,
-    learned::Latent,
-    model::shift::Shift,
+    learned::{Latent, inference::Backend},
+    model::{
+        attributes::{self, Attributes},
+        shift::Shift,
+    },
+    passes::reduce::{Fidelity, reduce},
     pipeline::{Pipeline, Request},
-    prompt::PromptCompiler,
-    reduce::{Fidelity, reduce},
-    sources::{Tools, latents::FromLatents},
+    sources::{
+        Tools,
+        latents::FromLatents,
+        latents::{AXES, Axis, History, LatentEditor, Latents, Sliders},
+        prompt::PromptCompiler,
+    },
 };
 use asperity_formats::Asset;
 use asperity_tests::{figures, oracle, size::sized_or};

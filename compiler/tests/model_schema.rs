@@ -1,9 +1,11 @@
 //! The schema and the example of `docs/data/` are those of the format.
 
 use asperity::{
-    builtin,
     model::Numerator,
-    model_file::{from_json, to_json},
+    sources::{
+        builtin,
+        model_file::{from_json, to_json},
+    },
 };
 use serde_json::{Value, json};
 

@@ -2,22 +2,20 @@
 //! mixed there, exported. It is a sine grating under a tip: a line at v/λ, narrow, at every force.
 
 use asperity::{
-    builtin,
     driver::{self, Failure},
-    inference::Backend,
+    emit::raise::raise,
     interchange::{self, ClipFormat, session},
-    learned::edges,
+    learned::{edges, inference::Backend},
     library::{Build, Manifest, Request as Wanted},
-    lsf,
-    model::{GridVertex, ModelGrid, Numerator, TextureModel, VertexKind},
+    model::{GridVertex, ModelGrid, Numerator, TextureModel, VertexKind, triangulate},
+    passes::reduce::Fidelity,
     pipeline::{Pass, Pipeline, Request},
-    prompt::PromptCompiler,
-    raise::raise,
-    reduce::Fidelity,
     scene::{self, Budget, Description},
-    sources::{Kind, ManifestSource, Operand, Registry, Source, SourceOutput, Tools, key::Parts},
-    spectrum::ArmaModel,
-    triangulate,
+    signal::{lsf, spectrum::ArmaModel},
+    sources::{
+        Kind, ManifestSource, Operand, Registry, Source, SourceOutput, Tools, builtin, key::Parts,
+        prompt::PromptCompiler,
+    },
 };
 use asperity_formats::{Asset, Library};
 use asperity_io::{diagnostic::Diagnostic, input::Reach};

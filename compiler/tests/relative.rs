@@ -1,12 +1,14 @@
 //! Edits in words go the way that the words say, and far enough to be noticed.
 
 use asperity::{
-    attributes::Attributes,
-    edit::{LatentEditor, Latents},
-    inference::Backend,
+    learned::inference::Backend,
+    model::attributes::Attributes,
+    passes::reduce::Fidelity,
     pipeline::Request,
-    prompt::PromptCompiler,
-    reduce::Fidelity,
+    sources::{
+        latents::{LatentEditor, Latents},
+        prompt::PromptCompiler,
+    },
 };
 use asperity_tests::size::sized;
 use rayon::prelude::*;

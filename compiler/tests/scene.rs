@@ -2,13 +2,12 @@
 //! the byte; what is wrong is named by file and field.
 
 use asperity::{
-    builtin,
-    inference::Backend,
+    emit::lower::lower,
+    learned::inference::Backend,
     library::{Build, Manifest, Request},
-    lower::lower,
-    prompt::PromptCompiler,
-    render::render_scene,
     scene::{Budget, Built, Description, build},
+    sources::{builtin, prompt::PromptCompiler},
+    views::render::render_scene,
 };
 use asperity_formats::Library;
 use asperity_io::diagnostic::{Failures, report};

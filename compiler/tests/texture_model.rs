@@ -2,11 +2,14 @@
 //! and shifts of them.
 
 use asperity::{
-    attributes, builtin,
-    lower::lower,
-    mixture::{Field, places},
-    model::shift::{adjust, scales, to},
-    spectrum::{ArmaModel, log_spectral_distance_db},
+    emit::lower::lower,
+    model::{
+        attributes,
+        mixture::{Field, places},
+        shift::{adjust, scales, to},
+    },
+    signal::spectrum::{ArmaModel, log_spectral_distance_db},
+    sources::builtin,
 };
 use asperity_formats::Asset;
 use asperity_runtime::HostTexture;

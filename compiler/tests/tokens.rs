@@ -1,6 +1,6 @@
 //! The tokens of a prompt are those that an independent WordPiece gives.
 
-use asperity::{
+use asperity::learned::{
     embedded,
     inference::Backend,
     text::{

@@ -195,8 +195,8 @@ mod tests {
         const TICKS: u64 = 12_000;
         let config = DeviceConfig::touch().expect("built-in file");
         let grip = Grip::preset(GripPreset::Light).expect("built-in file");
-        let built_in =
-            asperity::lower::lower(&asperity::builtin::texture(), None).expect("built in");
+        let built_in = asperity::emit::lower::lower(&asperity::sources::builtin::texture(), None)
+            .expect("built in");
         let mut texture = Box::new(HostTexture::new());
         let asset = Asset::parse(&built_in.bytes).expect("built in");
         texture.load(&asset, 1000.0).expect("it fits");

@@ -63,7 +63,8 @@ fn feel_without_a_file_writes_everything_and_says_what_is_synthetic() {
 #[test]
 fn a_file_is_felt_as_the_built_in_texture_is() {
     let folder = tempfile::tempdir().expect("a folder");
-    let lowered = asperity::lower::lower(&asperity::builtin::texture(), None).expect("built in");
+    let lowered = asperity::emit::lower::lower(&asperity::sources::builtin::texture(), None)
+        .expect("built in");
     fs::write(folder.path().join("grit.asp"), lowered.bytes).expect("the file");
     let options = ["--seconds", "3", "--grip", "firm", "--seed", "9", "--quiet"];
     let built_in = lab(folder.path(), &[&["feel"], &options[..]].concat());
@@ -144,7 +145,7 @@ fn failures_exit_with_1_name_the_culprit_and_leave_nothing() {
     let write = |name: &str, bytes: &[u8]| {
         fs::write(folder.path().join(name), bytes).expect("the file");
     };
-    let asset = asperity::lower::lower(&asperity::builtin::texture(), None)
+    let asset = asperity::emit::lower::lower(&asperity::sources::builtin::texture(), None)
         .expect("built in")
         .bytes;
     write("good.asp", &asset);
@@ -217,7 +218,7 @@ fn an_output_that_is_an_input_or_another_output_is_wrong_usage() {
     let write = |name: &str, bytes: &[u8]| {
         fs::write(folder.path().join(name), bytes).expect("the file");
     };
-    let asset = asperity::lower::lower(&asperity::builtin::texture(), None)
+    let asset = asperity::emit::lower::lower(&asperity::sources::builtin::texture(), None)
         .expect("built in")
         .bytes;
     write("good.asp", &asset);

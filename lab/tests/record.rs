@@ -1,7 +1,11 @@
 //! A recording of the simulated Touch with the simulated accelerometer, in virtual time: what an
 //! import makes of it is held against the texture that was stroked.
 
-use asperity::{builtin, lower, pipeline::Clock, recording};
+use asperity::{
+    emit::lower,
+    pipeline::Clock,
+    sources::{builtin, recording},
+};
 use asperity_experiments::import_accuracy::{Sensors, compare_at};
 use asperity_formats::Asset;
 use asperity_host::servo::{Event, Observer, Record, ServoLoop, Settings, SingleTexture, Virtual};

@@ -133,10 +133,10 @@ fn an_interrupt_ends_the_loop_without_force_and_keeps_the_record() {
 fn a_changed_file_is_felt_anew_and_a_broken_one_is_not() {
     let folder = tempfile::tempdir().expect("a folder");
     let lower = |mu: f64| {
-        let mut texture = asperity::builtin::texture();
+        let mut texture = asperity::sources::builtin::texture();
         texture.name = format!("grit of μ {mu}");
         texture.friction.mu = mu;
-        asperity::lower::lower(&texture, None)
+        asperity::emit::lower::lower(&texture, None)
             .expect("built in")
             .bytes
     };

@@ -74,9 +74,9 @@ fn a_recorded_session_is_played_to_the_same_bits() {
     let bytes = fs::read(folder.path().join("s.aspr")).expect("a recording");
     assert!(bytes.starts_with(b"ASPR"));
 
-    let mut texture = asperity::builtin::texture();
+    let mut texture = asperity::sources::builtin::texture();
     texture.friction.mu *= 2.0;
-    let other = asperity::lower::lower(&texture, None).expect("a texture");
+    let other = asperity::emit::lower::lower(&texture, None).expect("a texture");
     fs::write(folder.path().join("other.asp"), other.bytes).expect("a file");
     let replay = ["--device", "replay:s.aspr", "--json"];
     let [same, another_seed, another_texture, looked] = servos(
@@ -119,7 +119,7 @@ fn a_recorded_session_is_played_to_the_same_bits() {
 
 /// A library with a scene: the built-in texture on a board, whose top is at this height.
 fn scene(top_m: f32) -> Vec<u8> {
-    let texture = asperity::lower::lower(&asperity::builtin::texture(), None);
+    let texture = asperity::emit::lower::lower(&asperity::sources::builtin::texture(), None);
     let texture = texture.expect("built in").bytes;
     let board = SceneSurface {
         solid: Solid::Box {

@@ -32,8 +32,9 @@ fn ask(url: &str, method: &str, path: &str, body: &[u8]) -> Value {
 #[test]
 fn the_page_sees_the_loop_and_swaps_its_texture() {
     let folder = tempfile::tempdir().expect("a folder");
-    let cork = asperity::lower::lower(&asperity::builtin::texture(), None).expect("an asset");
-    let cork = asperity::library::renamed(&cork.bytes, "cork").expect("an asset");
+    let cork = asperity::emit::lower::lower(&asperity::sources::builtin::texture(), None)
+        .expect("an asset");
+    let cork = asperity::emit::sections::renamed(&cork.bytes, "cork").expect("an asset");
     fs::write(folder.path().join("cork.asp"), &cork).expect("a file");
     let mut servo = Command::new(env!("CARGO_BIN_EXE_asperity-lab"))
         .current_dir(folder.path())

@@ -8,9 +8,11 @@ use crate::{
     prompts::Prompts,
 };
 use asperity::{
-    edit::{AXES, Axis, Scale},
     interchange::{Format, Language},
-    prompt::suggestions,
+    sources::{
+        latents::{AXES, Axis, Scale},
+        prompt::suggestions,
+    },
 };
 use serde::Serialize;
 

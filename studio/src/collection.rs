@@ -11,10 +11,12 @@ use crate::{
     thumbnails::Thumbnails,
 };
 use asperity::{
-    attributes::Meter,
-    library::renamed,
-    lower::LowerError,
-    textures::{Textures, TexturesError},
+    emit::{
+        lower::LowerError,
+        sections::renamed,
+        textures::{Textures, TexturesError},
+    },
+    model::attributes::Meter,
 };
 use asperity_formats::Asset;
 use asperity_io::{

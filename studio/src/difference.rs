@@ -2,8 +2,8 @@
 
 use crate::{collection::Collection, error::ApiError, opening::refused};
 use asperity::{
-    edit::EditError,
     library::{Difference, LoadedLibrary, diff},
+    sources::latents::EditError,
 };
 use rayon::prelude::*;
 use std::collections::BTreeMap;

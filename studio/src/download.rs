@@ -3,8 +3,10 @@
 use crate::{error::ApiError, texture::Texture};
 use asperity::{
     interchange::{self, ClipFormat, Format, Language, Options, SourceOptions, export_source},
-    listen::{self, Gesture},
-    plot,
+    views::{
+        listen::{self, Gesture},
+        plot,
+    },
 };
 use std::{path::Path, sync::Arc};
 

@@ -9,10 +9,12 @@ use crate::{
 };
 use asperity::{
     driver,
-    edit::{Edit, LatentEditor, Mix, MixOptions, MixPreview, explain},
     pipeline::{Clock, Request},
-    prompt::{self, Options, Prompt, PromptCompiler},
-    sources::Tools,
+    sources::{
+        Tools,
+        latents::{Edit, LatentEditor, Mix, MixOptions, MixPreview, explain},
+        prompt::{self, Options, Prompt, PromptCompiler},
+    },
 };
 use asperity_io::clock::now;
 

@@ -9,9 +9,9 @@ use crate::{
 };
 use asperity::{
     driver,
+    emit::textures::Textures,
     pipeline::Clock,
     sources::{Tools, import::Imported},
-    textures::Textures,
 };
 use asperity_io::{
     clock::now,

@@ -2,8 +2,12 @@
 
 use crate::{error::ApiError, http::Status, texture::Texture};
 use asperity::{
-    library::{NamedAsset, check_name, encode, renamed},
-    lower::LowerError,
+    emit::{
+        lower::LowerError,
+        pack::{NamedAsset, encode},
+        sections::renamed,
+    },
+    library::check_name,
 };
 use asperity_io::shown::size;
 use std::{collections::HashSet, sync::Arc};

@@ -3,8 +3,10 @@
 use crate::{error::ApiError, http::Status};
 use asperity::{
     diagnostic::Failure,
-    edit::{LatentEditor, Scale},
-    prompt::PromptCompiler,
+    sources::{
+        latents::{LatentEditor, Scale},
+        prompt::PromptCompiler,
+    },
 };
 use std::sync::OnceLock;
 

@@ -1,10 +1,10 @@
 //! What the gallery shows of every texture of a library, in columns.
 
 use asperity::{
-    attributes::{Attributes, Meter},
-    edit::remembered,
+    emit::raise::raise,
     learned::Certainty,
-    raise::raise,
+    model::attributes::{Attributes, Meter},
+    sources::latents::remembered,
 };
 use asperity_formats::Asset;
 use serde::Serialize;

@@ -7,11 +7,12 @@ use crate::{
     worklet_asset,
 };
 use asperity::{
-    edit::{AXES, Axis, remembered},
-    inspect::{self, Document},
-    preview::{self, PreviewError, SIZE, WIDTH_MM},
-    raise::raise,
-    verify::VerifyError,
+    emit::{raise::raise, verify::VerifyError},
+    sources::latents::{AXES, Axis, remembered},
+    views::{
+        inspect::{self, Document},
+        preview::{self, PreviewError, SIZE, WIDTH_MM},
+    },
 };
 use asperity_formats::{Asset, FormatError};
 use asperity_io::output::FileNames;
@@ -240,7 +241,8 @@ impl Texture {
 impl Texture {
     /// One that holds these bytes, which need be no asset, and has this name among others.
     pub(crate) fn of_bytes(id: &str, bytes: &Arc<[u8]>) -> Self {
-        let asset = asperity::lower::lower(&asperity::builtin::texture(), None).unwrap();
+        let asset =
+            asperity::emit::lower::lower(&asperity::sources::builtin::texture(), None).unwrap();
         let what = |id: &str| What::Encode { texture: id.into() };
         let texture = Self::new(asset.bytes, Making::default(), what).unwrap();
         Self {

@@ -1,7 +1,7 @@
 //! Pictures of a library's textures: those that assets hold, and small ones drawn of the others.
 
 use crate::{error::ApiError, texture::damaged};
-use asperity::{preview, raise::raise};
+use asperity::{emit::raise::raise, views::preview};
 use asperity_formats::Asset;
 use std::{
     collections::{HashMap, VecDeque},

@@ -2,11 +2,9 @@
 
 use asperity::{
     driver,
-    library::without_preview,
-    lower::LowerError,
+    emit::{lower::LowerError, raise::raise, sections::without_preview},
+    passes::rerate::RATE_RANGE_HZ,
     pipeline::Request,
-    raise::raise,
-    rerate::RATE_RANGE_HZ,
     sources::{SourceOutput, Tools},
 };
 use asperity_formats::{Asset, EncodeError};
@@ -57,7 +55,7 @@ pub(crate) fn worklet_asset(bytes: &[u8]) -> Result<Vec<u8>, Failure> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity::{builtin, lower::lower};
+    use asperity::{emit::lower::lower, sources::builtin};
 
     #[test]
     fn rates_that_divide_16_khz_stay_and_others_move_to_the_nearest() {

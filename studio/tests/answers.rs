@@ -2,15 +2,18 @@
 
 use crate::client::{SHARED, Site};
 use asperity::{
-    builtin, driver,
-    inference::Backend,
-    inspect::{self, Document},
-    library::{encode, without_preview},
-    lower::lower,
+    driver,
+    emit::{lower::lower, pack::encode, sections::without_preview},
+    learned::inference::Backend,
     pipeline::Request,
-    preview,
-    prompt::{Options, PromptCompiler},
-    sources::{SourceOutput, Tools},
+    sources::{
+        SourceOutput, Tools, builtin,
+        prompt::{Options, PromptCompiler},
+    },
+    views::{
+        inspect::{self, Document},
+        preview,
+    },
 };
 use asperity_formats::Asset;
 use asperity_studio::{Collection, Limits};
@@ -156,13 +159,13 @@ fn a_library_and_a_folder_are_checked_and_named() {
     let at = |name: &str| folder.path().join(name);
     let asset = lower(&builtin::texture(), None).expect("an asset").bytes;
     let named = |name: &str| {
-        let bytes = asperity::library::renamed(&asset, name).expect("a name");
+        let bytes = asperity::emit::sections::renamed(&asset, name).expect("a name");
         (name.to_owned(), bytes)
     };
     let two = [named("a"), named("b")];
     let entries: Vec<_> = two
         .iter()
-        .map(|(name, bytes)| asperity::library::NamedAsset { name, bytes })
+        .map(|(name, bytes)| asperity::emit::pack::NamedAsset { name, bytes })
         .collect();
     let library = encode(&entries).expect("a library");
     fs::write(at("two.aspl"), &library).expect("room");

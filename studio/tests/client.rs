@@ -1,6 +1,6 @@
 //! A client that sends any bytes, and a server to send them to.
 
-use asperity::{driver::Failure, inference::Backend, prompt::PromptCompiler};
+use asperity::{driver::Failure, learned::inference::Backend, sources::prompt::PromptCompiler};
 use asperity_studio::{Collection, Limits, Server, Stopper, Studio};
 use serde_json::Value;
 use std::{

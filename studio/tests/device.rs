@@ -1,7 +1,7 @@
 //! A device behind the server: a page sees its ticks, loses those that it is too slow for, and has textures played.
 
 use crate::client::{SHARED, Site};
-use asperity::{builtin, lower::lower};
+use asperity::{emit::lower::lower, sources::builtin};
 use asperity_studio::{Limits, LiveDevice, LiveStatus, LiveTick, Studio};
 use serde_json::{Value, json};
 use std::{ops::Range, thread, time::Duration};

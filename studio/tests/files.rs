@@ -2,18 +2,25 @@
 
 use crate::client::{SHARED, Site};
 use asperity::{
-    builtin, driver,
-    effects::{self, Effects},
-    hatt::Hatt,
+    driver,
+    emit::lower::lower,
+    emit::{
+        pack::{NamedAsset, encode},
+        sections::renamed,
+    },
     interchange::{self, ClipFormat, Format, Language, Options, SourceOptions, export_source},
-    library::{NamedAsset, encode, renamed},
-    listen::{self, Gesture},
-    lower::lower,
-    model_file::{self, ModelFile},
+    passes::reduce::Fidelity,
     pipeline::Request,
-    plot, preview,
-    reduce::Fidelity,
-    sources::{Source, Tools},
+    sources::{
+        Source, Tools, builtin,
+        effects::{self, Effects},
+        hatt::Hatt,
+        model_file::{self, ModelFile},
+    },
+    views::{
+        listen::{self, Gesture},
+        plot, preview,
+    },
 };
 use asperity_formats::Asset;
 use serde_json::{Value, json};

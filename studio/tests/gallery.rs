@@ -2,11 +2,15 @@
 
 use crate::client::{Reply, SHARED, Site};
 use asperity::{
-    attributes, builtin,
-    library::{LoadedLibrary, NamedAsset, diff, encode, renamed},
-    lower::lower,
-    preview,
-    raise::raise,
+    emit::{lower::lower, raise::raise},
+    emit::{
+        pack::{NamedAsset, encode},
+        sections::renamed,
+    },
+    library::{LoadedLibrary, diff},
+    model::attributes,
+    sources::builtin,
+    views::preview,
 };
 use asperity_formats::Asset;
 use asperity_studio::{Collection, Limits};

@@ -2,11 +2,11 @@
 
 use crate::client::{Reply, SHARED, Site};
 use asperity::{
-    builtin,
+    emit::lower::lower,
+    emit::sections::renamed,
     interchange::{self, ClipFormat, Options},
-    library::renamed,
-    lower::lower,
-    preview,
+    sources::builtin,
+    views::preview,
 };
 use asperity_formats::Asset;
 use asperity_tests::{damage::seal, draw::Draw};

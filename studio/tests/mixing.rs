@@ -2,13 +2,15 @@
 
 use crate::client::{Reply, SHARED, Site};
 use asperity::{
-    attributes, builtin, driver,
-    edit::{AXES, Edit, LatentEditor, Mix, MixOptions, MixPreview, Sliders},
-    inference::Backend,
-    lower::lower,
-    prompt::{Options, PromptCompiler},
-    raise::raise,
-    sources::Tools,
+    driver,
+    emit::{lower::lower, raise::raise},
+    learned::inference::Backend,
+    model::attributes,
+    sources::{
+        Tools, builtin,
+        latents::{AXES, Edit, LatentEditor, Mix, MixOptions, MixPreview, Sliders},
+        prompt::{Options, PromptCompiler},
+    },
 };
 use asperity_formats::Asset;
 use serde_json::{Value, json};

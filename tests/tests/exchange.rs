@@ -3,9 +3,9 @@
 //! follow each other.
 
 use asperity::{
-    builtin,
-    lower::lower,
-    reduce::{Fidelity, reduce},
+    emit::lower::lower,
+    passes::reduce::{Fidelity, reduce},
+    sources::builtin,
 };
 use asperity_formats::Asset;
 use asperity_runtime::{

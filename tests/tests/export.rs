@@ -7,8 +7,8 @@ use crate::support::{
     self, c,
     c::{root, succeeded},
 };
+use asperity::emit::pack::{NamedAsset, encode, encode_scene};
 use asperity::interchange::{Language, SourceOptions, export_source};
-use asperity::library::{NamedAsset, encode, encode_scene};
 use asperity_formats::{SceneSurface, Solid, library};
 use std::{
     env, fs,
@@ -198,7 +198,7 @@ fn the_names_of_images_are_theirs_alone() {
 fn pictures_stay_out_of_images() {
     let plain = support::builtin();
     let png = b"\x89PNG\r\n\x1a\n and pixels";
-    let pictured = asperity::lower::lower(&asperity::builtin::texture(), Some(png))
+    let pictured = asperity::emit::lower::lower(&asperity::sources::builtin::texture(), Some(png))
         .unwrap()
         .bytes;
     let library_of = |asset: &[u8], surfaces: &[SceneSurface]| {

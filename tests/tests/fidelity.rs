@@ -2,7 +2,7 @@
 //! compares mixtures over the grid, independently of the reducer's own measure.
 
 use crate::support;
-use asperity::reduce::Fidelity;
+use asperity::passes::reduce::Fidelity;
 use asperity_formats::Asset;
 use asperity_tests::{
     hatt,

@@ -2,9 +2,9 @@
 //! in both arithmetics alike; nothing at rest; no energy; little by little from law to law.
 
 use asperity::{
-    builtin,
-    lower::lower,
+    emit::lower::lower,
     model::{FrictionLaw, LawPoint},
+    sources::builtin,
 };
 use asperity_formats::Asset;
 use asperity_runtime::{

@@ -47,7 +47,7 @@ fn trajectory() -> String {
 fn render(asset: &Asset<'_>, trajectory: &str) -> String {
     let mut out = Vec::new();
     let file = "trajectory.csv".as_ref();
-    asperity::render::render(asset, None, file, trajectory.as_bytes(), &mut out, 7)
+    asperity::views::render::render(asset, None, file, trajectory.as_bytes(), &mut out, 7)
         .expect("a render");
     String::from_utf8(out).expect("text")
 }

@@ -4,7 +4,10 @@
 
 use crate::support;
 use asperity::{
-    driver::compile_all, hatt::Hatt, pipeline::Request, reduce::Fidelity, sources::Tools,
+    driver::compile_all,
+    passes::reduce::Fidelity,
+    pipeline::Request,
+    sources::{Tools, hatt::Hatt},
 };
 use asperity_formats::Asset;
 use asperity_tests::{

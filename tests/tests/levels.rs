@@ -2,7 +2,7 @@
 //! at vertices and between them, for the built-in texture and HaTT materials.
 
 use crate::support;
-use asperity::reduce::Fidelity;
+use asperity::passes::reduce::Fidelity;
 use asperity_formats::Asset;
 use asperity_runtime::{Config, HostTexture, Renderer, Sample, State};
 use asperity_tests::{

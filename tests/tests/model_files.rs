@@ -4,16 +4,17 @@
 use crate::support;
 use asperity::{
     driver,
-    edit::remembered,
-    embedded,
-    inference::Backend,
+    emit::raise::raise,
+    learned::{embedded, inference::Backend},
     model::{Provenance, TextureModel},
-    model_file::{self, ModelFile},
+    passes::reduce::Fidelity,
     pipeline::{Request, Ringing},
-    prompt::{self, PromptCompiler},
-    raise::raise,
-    reduce::Fidelity,
-    sources::{SourceOutput, Tools},
+    sources::{
+        SourceOutput, Tools,
+        latents::remembered,
+        model_file::{self, ModelFile},
+        prompt::{self, PromptCompiler},
+    },
 };
 use asperity_formats::Asset;
 use std::{fs, path::Path};
@@ -145,7 +146,7 @@ fn the_example_of_the_documentation_compiles() {
         let request = Request {
             fidelity,
             rate_hz: None,
-            preview_px: preview.then_some(asperity::preview::SIZE),
+            preview_px: preview.then_some(asperity::views::preview::SIZE),
             ..Request::default()
         };
         let example = ModelFile { file: file.into() };

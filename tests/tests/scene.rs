@@ -3,11 +3,13 @@
 
 use crate::support;
 use asperity::{
-    builtin,
-    library::{NamedAsset, encode_scene},
-    lower::lower,
+    emit::{
+        lower::lower,
+        pack::{NamedAsset, encode_scene},
+    },
     model::TextureModel,
-    reduce::{Fidelity, reduce},
+    passes::reduce::{Fidelity, reduce},
+    sources::builtin,
 };
 use asperity_formats::{Asset, Library, SceneSurface, Solid, limits::MAX_POSITION_M as FAR};
 use asperity_runtime::{
@@ -411,7 +413,7 @@ fn what_is_no_scene_or_does_not_fit_is_refused() {
         name: "a",
         bytes: &pair[0],
     }];
-    let plain = asperity::library::encode(&named).unwrap();
+    let plain = asperity::emit::pack::encode(&named).unwrap();
     let mut refused = |bytes: &[u8], room: usize| {
         let library = Library::parse(bytes).unwrap();
         TestScene::load(&library, &config, &mut slots[..room]).expect_err("no scene that fits")

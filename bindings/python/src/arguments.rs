@@ -1,7 +1,7 @@
 //! Arguments that several functions take.
 
 use crate::error::Failure;
-use asperity::{preview, reduce};
+use asperity::{passes::reduce, views::preview};
 use asperity_formats as formats;
 use pyo3::{exceptions::PyTypeError, prelude::*, pybacked::PyBackedBytes};
 use std::{fmt::Display, ops::RangeInclusive, path::PathBuf};

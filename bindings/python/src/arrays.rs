@@ -1,7 +1,7 @@
 //! Grid and taps as NumPy arrays.
 
 use crate::records::{of_fields, value};
-use asperity::inspect::Document;
+use asperity::views::inspect::Document;
 use numpy::{Element, IntoPyArray as _, PyArrayMethods as _};
 use pyo3::{IntoPyObjectExt as _, prelude::*};
 

@@ -7,12 +7,13 @@ use crate::{
 };
 use asperity::{
     driver::{self, Compiled},
-    inference::Backend,
+    learned::{inference::Backend, text::TextEncoderChoice},
     library::Setup,
     pipeline::{Clock, Request},
-    prompt::{self, Options, Prompt, PromptError},
-    sources::Tools,
-    text::TextEncoderChoice,
+    sources::{
+        Tools,
+        prompt::{self, Options, Prompt, PromptError},
+    },
 };
 use asperity_io::clock::now;
 use pyo3::prelude::*;

@@ -8,12 +8,12 @@ use crate::{
     watch::{Steps, watched},
 };
 use asperity::{
+    emit::textures::Textures,
     learned::Certainty,
     library::{Build, BuildFile, Cache, Lock, Manifest, Packed, Request, Setup, Shard},
     pipeline::Clock,
     scene::{self, Budget, Description, Target},
     sources::Registry,
-    textures::Textures,
 };
 use asperity_io::{clock::now, diagnostic::Failures, output::Outputs};
 use pyo3::prelude::*;

@@ -2,11 +2,15 @@
 
 use crate::error::Failure;
 use asperity::{
-    inspect::Document,
-    plot::{self, AssetBytes},
-    preview,
-    raise::raise,
-    textures::{TexturesError, TexturesProblem},
+    emit::{
+        raise::raise,
+        textures::{TexturesError, TexturesProblem},
+    },
+    views::{
+        inspect::Document,
+        plot::{self, AssetBytes},
+        preview,
+    },
 };
 use asperity_formats::{Asset, FormatError};
 use std::{path::Path, sync::OnceLock};

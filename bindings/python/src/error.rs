@@ -1,7 +1,8 @@
 //! Failures as Python exceptions.
 
 use asperity::{
-    driver::Stopped, pipeline::PipelineError, prompt::PromptError, rerate::RATE_RANGE_HZ,
+    driver::Stopped, passes::rerate::RATE_RANGE_HZ, pipeline::PipelineError,
+    sources::prompt::PromptError,
 };
 use asperity_io::diagnostic::{Diagnostic, Failures};
 use pyo3::{exceptions::PyValueError, prelude::*};

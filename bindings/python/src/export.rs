@@ -12,7 +12,7 @@ use asperity::{
         self, ClipFormat, Format, Language, Options, SourceOptions, export_source, header_beside,
         parse_symbol, ranges, session,
     },
-    preview,
+    views::preview,
 };
 use asperity_io::output::Outputs;
 use pyo3::{IntoPyObjectExt as _, prelude::*, types::PyBytes};

@@ -8,17 +8,19 @@ use crate::{
     watch::watched,
 };
 use asperity::{
-    builtin::Builtin,
     driver::{self, Compiled},
-    effects::{Effects, Kind, Options},
-    hatt::{self, Hatt},
-    inference::Backend,
     interchange::ranges,
+    learned::inference::Backend,
     library::Setup,
-    model_file::ModelFile,
     pipeline::{Clock, Request},
-    recording::RecordingFolder,
-    sources::{Source, Tools},
+    sources::{
+        Source, Tools,
+        builtin::Builtin,
+        effects::{Effects, Kind, Options},
+        hatt::{self, Hatt},
+        model_file::ModelFile,
+        recording::RecordingFolder,
+    },
 };
 use asperity_io::{
     clock::now,

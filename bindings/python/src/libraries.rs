@@ -2,8 +2,8 @@
 
 use crate::{error::Failure, library::Library, records, texture::Texture};
 use asperity::{
-    edit::EditError,
     library::{self, LibraryFault, LoadedLibrary},
+    sources::latents::EditError,
 };
 use asperity_io::output;
 use pyo3::prelude::*;

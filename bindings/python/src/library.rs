@@ -9,9 +9,13 @@ use crate::{
     texture::Texture,
 };
 use asperity::{
-    library::{self, LibraryFault, LoadedLibrary, NamedAsset},
-    lower::LowerError,
-    textures::{Textures, TexturesError, TexturesProblem},
+    emit::{
+        lower::LowerError,
+        pack::{NamedAsset, encode},
+        sections::renamed,
+        textures::{Textures, TexturesError, TexturesProblem},
+    },
+    library::{self, LibraryFault, LoadedLibrary},
 };
 use asperity_formats::{self as formats, FormatError, SceneSurface};
 use asperity_io::output;
@@ -233,7 +237,7 @@ impl Library {
             if found.contents.asset()?.name() == name {
                 return Ok(found);
             }
-            let bytes = library::renamed(found.contents.bytes(), name).map_err(LowerError::from)?;
+            let bytes = renamed(found.contents.bytes(), name).map_err(LowerError::from)?;
             Texture::made(bytes, None)
         })
     }
@@ -389,7 +393,7 @@ pub(crate) fn pack(textures: &Bound<'_, PyAny>, path: Option<PathBuf>) -> PyResu
                 bytes: contents.bytes(),
             });
         }
-        let bytes = library::encode(&assets)?;
+        let bytes = encode(&assets)?;
         if let Some(path) = &path {
             output::write_atomic(path, &bytes)?;
         }

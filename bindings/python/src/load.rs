@@ -7,7 +7,7 @@ use crate::{
     library::Library,
     texture::Texture,
 };
-use asperity::textures::{Textures, TexturesError, TexturesProblem};
+use asperity::emit::textures::{Textures, TexturesError, TexturesProblem};
 use pyo3::{IntoPyObjectExt as _, prelude::*};
 use std::path::Path;
 

@@ -8,10 +8,12 @@ use crate::{
 };
 use asperity::{
     driver,
-    edit::{Edit, EditError, LatentEditor, Mix, MixOptions, MixPreview, Part, Sliders},
     library::check_name,
     pipeline::Clock,
-    sources::Tools,
+    sources::{
+        Tools,
+        latents::{Edit, EditError, LatentEditor, Mix, MixOptions, MixPreview, Part, Sliders},
+    },
 };
 use asperity_io::clock::now;
 use pyo3::prelude::*;

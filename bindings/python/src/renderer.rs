@@ -11,7 +11,7 @@ use crate::{
     servo::{self, Servo, ServoError},
     texture::Texture,
 };
-use asperity::render::{MAX_SCENE_TEXTURES, RenderError};
+use asperity::views::render::{MAX_SCENE_TEXTURES, RenderError};
 use asperity_formats::{FormatError, Library};
 use asperity_runtime::{Config, LoadError, Sample, SceneError, VibrationAxis};
 use pyo3::{IntoPyObjectExt as _, prelude::*, sync::MutexExt as _, types::IntoPyDict as _};

@@ -1,7 +1,7 @@
 //! `asperity.Scene`.
 
 use crate::{error::Failure, library::Library, records};
-use asperity::inspect::SurfaceDocument;
+use asperity::views::inspect::SurfaceDocument;
 use pyo3::{PyClassInitializer, prelude::*};
 
 /// Several surfaces, each a solid that wears a texture of this library.

@@ -10,10 +10,10 @@ use crate::{
     records::{of_fields, parsed, record, value},
 };
 use asperity::{
-    edit::Edit,
-    inspect::Document,
-    library::{check_name, renamed},
-    lower::LowerError,
+    emit::{lower::LowerError, sections::renamed},
+    library::check_name,
+    sources::latents::Edit,
+    views::inspect::Document,
 };
 use asperity_io::output;
 use pyo3::{

@@ -19,7 +19,10 @@ pub(crate) use studio::Studio;
 pub(crate) use views::{Inspect, Listen, Plot, Preview, Render};
 
 use asperity::{
-    inference::BackendName, library::check_name, preview, reduce::Fidelity, text::TextEncoderChoice,
+    learned::{inference::BackendName, text::TextEncoderChoice},
+    library::check_name,
+    passes::reduce::Fidelity,
+    views::preview,
 };
 use asperity_console::manual::{Completions, Manual};
 use clap::{Args, Parser, Subcommand};

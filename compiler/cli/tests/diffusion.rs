@@ -1,7 +1,7 @@
 //! `--diffusion`: pictures of a tiny model, folders that do not fit, and nothing left over.
 
 use super::*;
-use asperity::preview::stored;
+use asperity::views::preview::stored;
 use asperity_diffusion::tiny;
 use asperity_formats::Asset;
 use std::{process::Stdio, thread::sleep, time::Duration};
@@ -120,7 +120,7 @@ fn compile_embeds_the_picture_and_says_so_in_the_notes() {
     );
     let made = "by diffusion: asperity/tiny, ddim, 3 steps, guidance 7.5, seed 0";
     assert!(text(&output.stdout).contains(made));
-    let notes = asperity::raise::raise(&with).provenance.notes;
+    let notes = asperity::emit::raise::raise(&with).provenance.notes;
     assert!(notes.ends_with(&format!("Preview {made}.")), "{notes}");
     let picture = with.preview_png().expect("a picture");
     assert!(picture.len() <= 25_000, "{} bytes", picture.len());

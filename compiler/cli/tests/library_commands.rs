@@ -1,7 +1,7 @@
 //! What is done with a library that is built: compared, renamed, split.
 
 use super::{library::manifest, *};
-use asperity::library::{NamedAsset, encode};
+use asperity::emit::pack::{NamedAsset, encode};
 
 #[test]
 fn a_difference_is_told_in_figures_and_by_the_exit_status() {

@@ -85,8 +85,9 @@ fn a_library_shows_the_names_of_its_index() {
     let inputs = inputs();
     let folder = inputs.path();
     let good = fs::read(folder.join("good.asp")).expect("the asset");
-    let assets = ["mine", "yours"].map(|name| asperity::library::NamedAsset { name, bytes: &good });
-    let library = asperity::library::encode(&assets).expect("a library");
+    let assets =
+        ["mine", "yours"].map(|name| asperity::emit::pack::NamedAsset { name, bytes: &good });
+    let library = asperity::emit::pack::encode(&assets).expect("a library");
     fs::write(folder.join("two.aspl"), library).expect("a library");
     let json = |arguments: &[&str]| -> Value {
         let output = asperity(folder, arguments);

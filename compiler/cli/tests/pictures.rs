@@ -1,7 +1,7 @@
 //! `preview` and `listen`: what they write, and what they refuse.
 
 use super::*;
-use asperity::preview::stored;
+use asperity::views::preview::stored;
 
 /// A folder with the built-in texture, and with a model that holds a picture.
 fn folder() -> TempDir {

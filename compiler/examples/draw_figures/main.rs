@@ -10,11 +10,13 @@ mod sound;
 mod texture;
 
 use asperity::{
-    edit::{LatentEditor, Latents, explain},
-    inference::Backend,
+    learned::inference::Backend,
     model::{Provenance, TextureModel},
-    prompt::PromptCompiler,
-    sources::latents::decode,
+    sources::{
+        latents::decode,
+        latents::{LatentEditor, Latents, explain},
+        prompt::PromptCompiler,
+    },
 };
 use asperity_io::output::write_atomic;
 use page::Page;

@@ -1,11 +1,13 @@
 //! The text of `docs/figures.md`: what stands around the pictures, with the numbers of the model.
 
 use asperity::{
-    attributes::{self, Attributes},
-    edit::Explanation,
-    model::TextureModel,
+    model::{
+        TextureModel,
+        attributes::{self, Attributes},
+    },
+    passes::reduce::Fidelity,
     pipeline::Pipeline,
-    reduce::Fidelity,
+    sources::latents::Explanation,
 };
 use std::fmt::Write as _;
 

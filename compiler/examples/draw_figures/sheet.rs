@@ -1,10 +1,9 @@
 //! A picture with a column a texture: its preview, the spectra of its models, its taps.
 
 use asperity::{
-    attributes,
-    model::{TextureModel, VertexKind},
-    preview,
-    spectrum::ArmaModel,
+    model::{TextureModel, VertexKind, attributes},
+    signal::spectrum::ArmaModel,
+    views::preview,
 };
 use asperity_plot::{
     Align, Axis, Canvas, Color, ColorMap, ColorScale, Margins, Panel, Rect, Stroke, TextStyle,

@@ -1,9 +1,9 @@
 //! What a texture sounds like in three seconds: a slow stroke, a fast one, three taps.
 
 use asperity::{
-    listen::{Gesture, Stroke, listen},
-    lower,
+    emit::lower,
     model::TextureModel,
+    views::listen::{Gesture, Stroke, listen},
 };
 use asperity_formats::Asset;
 use std::{error::Error, io::Cursor};

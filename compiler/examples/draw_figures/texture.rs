@@ -1,7 +1,7 @@
 //! One texture for someone who sees the first one: how it looks, how strongly it vibrates, how a tap feels.
 
 use crate::sheet::{halved, picture};
-use asperity::{lower, model::TextureModel, spectrum::ArmaModel};
+use asperity::{emit::lower, model::TextureModel, signal::spectrum::ArmaModel};
 use asperity_formats::Asset;
 use asperity_plot::{
     Axis, Canvas, ColorMap, ColorScale, Key, Margins, Panel, Rect, Stroke, TextStyle, ink, legend,

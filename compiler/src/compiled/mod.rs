@@ -1,7 +1,7 @@
 //! The result of a source: a compiled texture, how far its asset is from the source, and the reports of both.
 //!
 //! ```
-//! use asperity::{builtin::Builtin, driver, pipeline::Request, reduce::Fidelity, sources::Tools};
+//! use asperity::{sources::{builtin::Builtin, Tools}, driver, pipeline::Request, passes::reduce::Fidelity};
 //!
 //! let request = Request { fidelity: Fidelity::Auto, ..Request::default() };
 //! let compiled = driver::compile(&Builtin, &request, &Tools::default())?;

@@ -9,7 +9,7 @@
 //! and says how far the asset is from its source.
 //!
 //! ```
-//! use asperity::{builtin::Builtin, driver, pipeline::Request, sources::Tools};
+//! use asperity::{sources::{builtin::Builtin, Tools}, driver, pipeline::Request};
 //!
 //! let compiled = driver::compile(&Builtin, &Request::default(), &Tools::default())?;
 //! assert_eq!(&compiled.lowered.bytes[..4], b"ASPT");

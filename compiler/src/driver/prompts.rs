@@ -10,7 +10,7 @@ impl PromptCompiler {
     /// Compiles a prompt.
     ///
     /// # Errors
-    /// [`PromptError`](crate::prompt::PromptError) with the stage that failed, or what keeps any texture from passing.
+    /// [`PromptError`](crate::sources::prompt::PromptError) with the stage that failed, or what keeps any texture from passing.
     pub fn compile(&self, prompt: &str, options: &Options) -> Result<Compiled, Failure> {
         let source = Prompt {
             text: prompt.to_owned(),

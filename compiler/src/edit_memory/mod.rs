@@ -1,14 +1,14 @@
 //! What an asset remembers of how it was made: latents and history, outside the haptic sections.
 //!
-//! The runtime skips both; [edits](crate::edit) begin with them. An asset that was not decoded from a latent remembers
+//! The runtime skips both; [edits](crate::sources::latents) begin with them. An asset that was not decoded from a latent remembers
 //! nothing:
 //!
 //! ```
 //! use asperity::{
-//!     builtin,
+//!     sources::builtin,
 //!     edit_memory::{Latents, remembered},
 //!     learned::description::LATENT,
-//!     lower::lower,
+//!     emit::lower::lower,
 //! };
 //! use asperity_formats::Asset;
 //!

@@ -2,7 +2,8 @@
 //! files, and the way back.
 
 pub mod lower;
+pub mod pack;
 pub mod raise;
-pub(crate) mod sections;
+pub mod sections;
 pub mod textures;
 pub mod verify;

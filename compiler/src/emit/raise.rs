@@ -1,10 +1,10 @@
 //! The way back: the f64 model that the bytes of an asset describe.
 //!
 //! Everything that shows an asset, edits it or compares it begins here. The model has the values that the runtime
-//! renders, so it differs from the one that was [lowered](crate::lower) by the rounding of the format.
+//! renders, so it differs from the one that was [lowered](crate::emit::lower) by the rounding of the format.
 //!
 //! ```
-//! use asperity::{builtin, lower::lower, raise::raise};
+//! use asperity::{sources::builtin, emit::{lower::lower, raise::raise}};
 //! use asperity_formats::Asset;
 //!
 //! let texture = builtin::texture();
@@ -12,7 +12,7 @@
 //! let raised = raise(&Asset::parse(&bytes).expect("a valid asset"));
 //! assert_eq!((&raised.name, &raised.grid.triangles), (&texture.name, &texture.grid.triangles));
 //! assert!((raised.friction.mu - texture.friction.mu).abs() < 1e-6);
-//! # Ok::<(), asperity::lower::LowerError>(())
+//! # Ok::<(), asperity::emit::lower::LowerError>(())
 //! ```
 
 use asperity_formats as formats;

@@ -5,11 +5,7 @@
 //! from the bytes that were written, played, and compared with the clip in third octaves.
 //!
 //! ```
-//! use asperity::{
-//!     builtin,
-//!     interchange::{ClipFormat, Options, export, session},
-//!     lower::lower,
-//! };
+//! use asperity::{sources::builtin, interchange::{ClipFormat, Options, export, session}, emit::lower::lower};
 //! use asperity_formats::Asset;
 //!
 //! let bytes = lower(&builtin::texture(), None).expect("a texture that fits an asset").bytes;

@@ -5,7 +5,10 @@ use super::{
     export::{Format, Language},
     rust_source,
 };
-use crate::library::{LibraryError, NamedAsset, encode, encode_scene, without_preview};
+use crate::emit::{
+    pack::{LibraryError, NamedAsset, encode, encode_scene},
+    sections::without_preview,
+};
 use asperity_formats::{EncodeError, Library, SceneSurface};
 use asperity_io::diagnostic::Diagnostic;
 use serde_json::{Value, json};

@@ -131,7 +131,7 @@ pub fn growth(vertices: &[GridVertex]) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::passes::triangulate;
+    use asperity_texture::model::triangulate;
     use asperity_texture::model::{ModelGrid, Numerator, mesh};
 
     fn interior() -> Vec<GridVertex> {

@@ -1,7 +1,7 @@
 //! Where networks run: the portable engine, or ONNX Runtime where it is installed.
 //!
 //! ```
-//! use asperity::inference::{Backend, BackendName};
+//! use asperity::learned::inference::{Backend, BackendName};
 //!
 //! let name: BackendName = "portable".parse()?;
 //! assert_eq!(Backend::open(name).expect("an engine that is always there"), Backend::Portable);

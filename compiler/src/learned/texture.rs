@@ -6,7 +6,7 @@ use super::{
     friction::{self, Neighbour},
     model::{Decoded, DecodedGrid, Latent},
 };
-use crate::passes::triangulate;
+use asperity_texture::model::triangulate;
 use asperity_texture::{
     model::{
         Friction, FrictionAnchor, Gains, GridVertex, ModelGrid, Numerator, Provenance, TapBank,

@@ -1,11 +1,9 @@
 //! All textures of a library in memory.
 
-use super::{
-    error::{LibraryFault, check_name},
-    pack::{LibraryError, NamedAsset, encode},
-};
+use super::error::{LibraryFault, check_name};
 use crate::emit::{
     lower::LowerError,
+    pack::{LibraryError, NamedAsset, encode},
     sections::renamed,
     textures::{Textures, TexturesError},
 };

@@ -1,10 +1,7 @@
 //! Parts of a library become the library.
 
-use super::{
-    error::LibraryFault,
-    loaded_library::LoadedLibrary,
-    pack::{NamedAsset, encode},
-};
+use super::{error::LibraryFault, loaded_library::LoadedLibrary};
+use crate::emit::pack::{NamedAsset, encode};
 use asperity_io::diagnostic::{Failures, one};
 use std::collections::BTreeMap;
 

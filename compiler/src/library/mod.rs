@@ -9,11 +9,7 @@
 //! `docs/libraries.md` describes the manifest and shows the commands.
 //!
 //! ```
-//! use asperity::{
-//!     builtin,
-//!     library::{Build, Manifest, Request},
-//!     lower::lower,
-//! };
+//! use asperity::{sources::builtin, library::{Build, Manifest, Request}, emit::lower::lower};
 //! use asperity_formats::Library;
 //!
 //! let folder = tempfile::tempdir().expect("a temporary folder");
@@ -44,7 +40,6 @@ mod lock;
 mod make;
 pub mod manifest;
 mod merge;
-mod pack;
 mod report;
 mod setup;
 mod shard;
@@ -52,7 +47,6 @@ mod spill;
 mod split;
 mod user_folder;
 
-pub use crate::emit::sections::{renamed, without_preview};
 pub use build::{Build, Built, Request};
 pub use build_file::BuildFile;
 pub use cache::{Cache, default_folder};
@@ -64,7 +58,6 @@ pub use loaded_library::LoadedLibrary;
 pub use lock::{Lock, LockError, Pinned};
 pub use manifest::Manifest;
 pub use merge::merge;
-pub use pack::{LibraryError, NamedAsset, encode, encode_scene, scene_len};
 pub use report::{Report, Row};
 pub use setup::{Setup, model_files};
 pub use shard::Shard;

@@ -9,7 +9,7 @@ use std::{
 };
 use tempfile::SpooledTempFile;
 
-use super::pack::LibraryError;
+use crate::emit::pack::LibraryError;
 
 /// Bytes that are kept in memory before a temporary file takes them.
 const IN_MEMORY: usize = 16 << 20;
@@ -131,7 +131,7 @@ impl Packed {
         self.slots.iter().map(|slot| held.read(*slot)).collect()
     }
 
-    /// Writes the library: the bytes that [`encode`](super::encode) gives of the same assets.
+    /// Writes the library: the bytes that [`encode`](crate::emit::pack::encode) gives of the same assets.
     ///
     /// # Errors
     /// A failed read of the temporary file, or a failed write.
@@ -149,8 +149,10 @@ impl Packed {
 mod tests {
     use super::*;
     use crate::{
-        emit::lower::lower,
-        library::{NamedAsset, encode},
+        emit::{
+            lower::lower,
+            pack::{NamedAsset, encode},
+        },
         sources::builtin,
     };
     use asperity_formats::Asset;

@@ -1,9 +1,7 @@
 //! A library becomes several smaller ones.
 
-use super::{
-    loaded_library::LoadedLibrary,
-    pack::{LibraryError, NamedAsset, encode},
-};
+use super::loaded_library::LoadedLibrary;
+use crate::emit::pack::{LibraryError, NamedAsset, encode};
 
 /// Libraries of neighbouring textures, each as large as the others within one texture.
 ///

@@ -13,7 +13,7 @@
 //! the objective attributes do.
 //!
 //! ```
-//! use asperity::{builtin, ceiling};
+//! use asperity::{sources::builtin, passes::ceiling};
 //!
 //! let mut texture = builtin::texture();
 //! for vertex in &mut texture.grid.vertices {

@@ -4,7 +4,7 @@
 //! there was no power, except for a floor that keeps the fit regular.
 //!
 //! ```
-//! use asperity::{builtin, rerate::rerate};
+//! use asperity::{sources::builtin, passes::rerate::rerate};
 //!
 //! let grid = builtin::texture().grid;
 //! let doubled = rerate(&grid, 2.0 * grid.sample_rate_hz).expect("a rate within range");

@@ -5,7 +5,7 @@
 //! other cannot, and white noise has no memory at all.
 //!
 //! ```
-//! use asperity::{builtin, lsf, stabilise::stabilise};
+//! use asperity::{sources::builtin, signal::lsf, passes::stabilise::stabilise};
 //!
 //! let white = stabilise(&builtin::texture(), 1.0);
 //! let polynomial = lsf::to_polynomial(&white.grid.vertices[0].lsf_rad);

@@ -11,6 +11,7 @@ use super::{
     target::Target,
 };
 use crate::{
+    emit::pack,
     library::{self, EntryError, LibraryFault, manifest::Entry},
     passes::reduce::Fidelity,
     pipeline::{Pass, Pipeline, Timings},
@@ -143,7 +144,7 @@ fn chosen<'a>(
     target: &Target,
 ) -> Result<Vec<&'a Candidate>, SceneError> {
     let names: Vec<&str> = order.iter().map(|entry| entry.name.as_str()).collect();
-    let fixed = library::scene_len(&names, scene.surfaces.len()) as u64;
+    let fixed = pack::scene_len(&names, scene.surfaces.len()) as u64;
     let limits = Limits {
         instructions: target.budget(scene.servo_rate_hz, budget.share),
         bytes: budget
@@ -184,10 +185,10 @@ fn encode(
     order: &[&Entry],
     chosen: &[Candidate],
 ) -> Result<Vec<u8>, SceneError> {
-    let named: Vec<library::NamedAsset<'_>> = order
+    let named: Vec<pack::NamedAsset<'_>> = order
         .iter()
         .zip(chosen)
-        .map(|(entry, candidate)| library::NamedAsset {
+        .map(|(entry, candidate)| pack::NamedAsset {
             name: &entry.name,
             bytes: &candidate.bytes,
         })
@@ -204,7 +205,7 @@ fn encode(
             texture: place(surface.texture).unwrap_or(0) as u16,
         })
         .collect();
-    library::encode_scene(&named, &surfaces).map_err(|e| SceneError {
+    pack::encode_scene(&named, &surfaces).map_err(|e| SceneError {
         file: scene.manifest.file.clone(),
         field: String::new(),
         problem: e.into(),

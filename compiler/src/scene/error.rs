@@ -1,7 +1,7 @@
 //! Why a scene cannot be built.
 
 use super::target::Target;
-use crate::library::LibraryError;
+use crate::emit::pack::LibraryError;
 use asperity_io::{diagnostic::Diagnostic, shown::suggestion, toml_error::TomlError};
 use std::path::PathBuf;
 use thiserror::Error;

@@ -7,7 +7,7 @@
 //! below one, as that of real textures does. No recording went into it.
 //!
 //! ```
-//! use asperity::builtin;
+//! use asperity::sources::builtin;
 //!
 //! let texture = builtin::texture();
 //! assert_eq!(texture.name, "Built-in Grit");
@@ -15,7 +15,6 @@
 //! ```
 
 use crate::{
-    passes::triangulate,
     pipeline::{Pass, Pipeline, Request},
     sources::{Source, SourceOutput, Tools},
 };
@@ -23,7 +22,7 @@ use asperity_io::diagnostic::Failure;
 use asperity_texture::{
     model::{
         Friction, FrictionAnchor, GridVertex, ModelGrid, Numerator, Provenance, TextureModel,
-        VertexKind, defaults, tap_synthesis,
+        VertexKind, defaults, tap_synthesis, triangulate,
     },
     signal::{levinson, lsf},
 };

@@ -5,11 +5,7 @@
 //! name it. A texture that a program already holds is a source as well:
 //!
 //! ```
-//! use asperity::{
-//!     builtin, driver,
-//!     pipeline::Request,
-//!     sources::{SourceOutput, Tools},
-//! };
+//! use asperity::{sources::{builtin, SourceOutput, Tools}, driver, pipeline::Request};
 //!
 //! let mut texture = builtin::texture();
 //! texture.friction.mu = 0.2;

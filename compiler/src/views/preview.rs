@@ -5,7 +5,7 @@
 //! and gloss.
 //!
 //! ```
-//! use asperity::{builtin, preview};
+//! use asperity::{sources::builtin, views::preview};
 //!
 //! let png = preview::png(&builtin::texture(), 64)?;
 //! assert_eq!(preview::width(&png), Some(64));

@@ -1,7 +1,7 @@
 //! How often what is said to be known, close or a guess comes out as a person rated it.
 
 use super::PROMPTS;
-use asperity::{attributes, learned::Certainty};
+use asperity::{learned::Certainty, model::attributes};
 use asperity_tests::{figures, size::sized};
 use rayon::prelude::*;
 use std::collections::BTreeMap;

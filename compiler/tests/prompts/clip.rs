@@ -1,11 +1,14 @@
 //! A text tower of CLIP's signature, tiny and made up, with a projection of its width.
 
 use asperity::{
-    embedded,
-    inference::Backend,
-    learned::{Files, LearnedModel, description::ModelDescription},
-    prompt::{Options, PromptCompiler},
-    text::{TextEncoder as _, clip::Clip},
+    learned::{
+        Files, LearnedModel,
+        description::ModelDescription,
+        embedded,
+        inference::Backend,
+        text::{TextEncoder as _, clip::Clip},
+    },
+    sources::prompt::{Options, PromptCompiler},
 };
 use asperity_nn::{
     Dim, ElementType, Tensor,

@@ -2,8 +2,11 @@
 
 use super::PROMPTS;
 use asperity::{
-    builtin, learned::complete, mesh, model::TapBank, raise, spectrum::trace_centroid_hz,
-    tap_synthesis,
+    emit::raise,
+    learned::complete,
+    model::{TapBank, mesh, tap_synthesis},
+    signal::spectrum::trace_centroid_hz,
+    sources::builtin,
 };
 use asperity_formats::Asset;
 
@@ -13,8 +16,8 @@ fn taps_decoded_from_a_grid_fit_the_texture_they_complete() {
     let taps = complete::taps_of_grid(PROMPTS.model(), &texture.grid, &texture.gains).unwrap();
     assert_eq!(taps.traces.len(), 13);
     let completed = asperity::model::TextureModel { taps, ..texture };
-    let lowered = asperity::lower::lower(&completed, None).unwrap();
-    asperity::verify::verify(&completed, &lowered.bytes).unwrap();
+    let lowered = asperity::emit::lower::lower(&completed, None).unwrap();
+    asperity::emit::verify::verify(&completed, &lowered.bytes).unwrap();
     assert_eq!(
         raise::raise(&Asset::parse(&lowered.bytes).unwrap())
             .taps

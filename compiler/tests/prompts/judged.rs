@@ -3,8 +3,8 @@
 
 use super::PROMPTS;
 use asperity::{
-    attributes::{self, Attributes},
-    prompt::reading::VERSION,
+    model::attributes::{self, Attributes},
+    sources::prompt::reading::VERSION,
 };
 use asperity_tests::{
     figures,

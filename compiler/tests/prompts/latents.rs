@@ -4,10 +4,10 @@ use super::PROMPTS;
 use asperity::{
     driver,
     learned::{Latent, texture},
-    level, lsf,
     model::Provenance,
+    passes::reduce::Fidelity,
     pipeline::{Request, Ringing},
-    reduce::Fidelity,
+    signal::{level, lsf},
     sources::{SourceOutput, Tools},
 };
 use asperity_tests::size::sized_or;

@@ -13,7 +13,7 @@ mod spelling;
 mod together;
 mod words;
 
-use asperity::{inference::Backend, prompt::PromptCompiler};
+use asperity::{learned::inference::Backend, sources::prompt::PromptCompiler};
 use std::sync::LazyLock;
 
 /// Loaded once: the tests of this file only ask it.

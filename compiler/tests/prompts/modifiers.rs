@@ -1,9 +1,9 @@
 //! What modifiers do to a material, and which prompts are reported as guesses.
 
 use super::PROMPTS;
-use asperity::attributes::{self, Attributes};
 use asperity::learned::Certainty;
-use asperity::prompt::phrase::{Phrase, parse};
+use asperity::model::attributes::{self, Attributes};
+use asperity::sources::prompt::phrase::{Phrase, parse};
 use asperity_tests::{
     figures,
     size::{least, sized},

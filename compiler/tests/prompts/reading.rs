@@ -1,7 +1,7 @@
 //! What is read of prompts, of each kind of rule a few.
 
 use super::PROMPTS;
-use asperity::prompt::reading::{Reading, Role};
+use asperity::sources::prompt::reading::{Reading, Role};
 
 fn read(prompt: &str) -> Reading {
     PROMPTS.read(prompt)

@@ -2,7 +2,7 @@
 //! nothing about touch.
 
 use super::PROMPTS;
-use asperity::attributes::{self, Attributes};
+use asperity::model::attributes::{self, Attributes};
 use asperity_tests::{
     figures,
     size::{least, sized},

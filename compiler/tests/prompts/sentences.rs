@@ -5,8 +5,8 @@
 
 use super::{PROMPTS, rewordings::distance};
 use asperity::{
-    attributes::{self, Attributes},
     learned::Certainty,
+    model::attributes::{self, Attributes},
 };
 use asperity_tests::{
     figures,

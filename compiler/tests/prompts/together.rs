@@ -1,6 +1,6 @@
 //! Prompts that are read a batch at a time.
 
-use asperity::{inference::Backend, prompt::PromptCompiler};
+use asperity::{learned::inference::Backend, sources::prompt::PromptCompiler};
 
 #[test]
 fn prompts_read_together_are_to_the_bit_what_they_are_alone() {

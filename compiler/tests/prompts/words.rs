@@ -2,12 +2,12 @@
 
 use super::PROMPTS;
 use asperity::{
-    attributes::{self, Attributes},
     driver::Stopped,
     learned::Certainty,
+    model::attributes::{self, Attributes},
+    passes::reduce::Fidelity,
     pipeline::{PipelineError, Request},
-    prompt::{Options, PromptError},
-    reduce::Fidelity,
+    sources::prompt::{Options, PromptError},
 };
 use asperity_formats::Asset;
 use asperity_tests::{

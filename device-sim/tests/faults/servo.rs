@@ -11,7 +11,7 @@ pub(crate) const SEED: u64 = 11;
 
 /// The bytes of the built-in texture.
 pub(crate) fn asset() -> Vec<u8> {
-    let lowered = asperity::lower::lower(&asperity::builtin::texture(), None);
+    let lowered = asperity::emit::lower::lower(&asperity::sources::builtin::texture(), None);
     lowered.expect("the built-in texture").bytes
 }
 

@@ -1,7 +1,10 @@
 //! The check of a recording names what people do wrong, and says nothing of what they do right; the import
 //! takes strokes as hands make them.
 
-use asperity::{builtin, pipeline::Clock, recording};
+use asperity::{
+    pipeline::Clock,
+    sources::{builtin, recording},
+};
 use asperity_experiments::import_accuracy::{self, Sensors, Strokes, Until};
 use asperity_recording::{segments::Segments, signal::quantile::median};
 use asperity_tests::size::sized;

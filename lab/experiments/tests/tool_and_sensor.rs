@@ -2,9 +2,11 @@
 //! makes of their files is held against the texture that was stroked.
 
 use asperity::{
-    builtin,
     pipeline::Clock,
-    recording::{self, Analysis},
+    sources::{
+        builtin,
+        recording::{self, Analysis},
+    },
 };
 use asperity_experiments::import_accuracy::{
     self, Comparison, Performance, Resonance, Sensors, Strokes, Until,

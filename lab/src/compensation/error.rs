@@ -1,6 +1,6 @@
 //! What cannot be rendered in a device's voice.
 
-use asperity::lower::LowerError;
+use asperity::emit::lower::LowerError;
 use asperity_formats::{EncodeError, FormatError};
 use asperity_io::diagnostic::Diagnostic;
 

@@ -23,9 +23,9 @@ mod tests;
 pub use error::CompensationError;
 
 use asperity::{
-    lower, lsf,
+    emit::{lower, raise},
     model::{GridVertex, ModelGrid, Numerator, TapBank, TextureModel},
-    raise,
+    signal::lsf,
 };
 use asperity_formats::{
     Asset, Library, SceneSurface, library, limits::MAX_ORDER, scene as formats_scene,

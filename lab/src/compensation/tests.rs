@@ -31,7 +31,7 @@ fn filter_of(device: &DeviceConfig) -> Compensation {
 }
 
 fn quiet() -> TextureModel {
-    let mut texture = asperity::builtin::texture();
+    let mut texture = asperity::sources::builtin::texture();
     for vertex in &mut texture.grid.vertices {
         vertex.sigma_m_s2 *= QUIET;
     }
@@ -151,7 +151,7 @@ fn one_texture_has_the_same_spectrum_on_devices_that_differ_by_24_db() {
 /// Largest difference between a model's spectrum times the filter's and the compensated model's
 /// spectrum, dB, from 40 to 400 Hz.
 fn off_db(before: &TextureModel, after: &TextureModel, filter: &Compensation) -> f64 {
-    use asperity::spectrum::{ArmaModel, squared_magnitude};
+    use asperity::signal::spectrum::{ArmaModel, squared_magnitude};
     let taps: Vec<f64> = filter.taps.iter().map(|&tap| f64::from(tap)).collect();
     let pairs = before.grid.vertices.iter().zip(&after.grid.vertices);
     let each = pairs.flat_map(|(x, y)| {

@@ -106,7 +106,7 @@ fn facts(asset: &Asset<'_>, origin: &str) -> TextureFacts {
         name: asset.name().to_owned(),
         origin: origin.to_owned(),
         mu: f64::from(asset.friction().mu()),
-        law: asperity::raise::law(asset),
+        law: asperity::emit::raise::law(asset),
         stiffness_n_m: f64::from(coupling.stiffness_n_m),
         vib_n_per_m_s2: f64::from(coupling.vib_s2_m) * f64::from(coupling.f_max_n),
         grid: (

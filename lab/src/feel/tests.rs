@@ -12,7 +12,7 @@ use asperity_sim::servo::RenderedTexture;
 use asperity_sim::session::Session;
 
 fn built_in() -> Vec<u8> {
-    asperity::lower::lower(&asperity::builtin::texture(), None)
+    asperity::emit::lower::lower(&asperity::sources::builtin::texture(), None)
         .expect("built in")
         .bytes
 }

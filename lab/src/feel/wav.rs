@@ -4,7 +4,7 @@ use std::io::Cursor;
 
 use super::error::FeelError;
 use super::recording::Recording;
-use asperity::resample::resample;
+use asperity::signal::resample::resample;
 
 /// The sample rate that a sound's rate is chosen nearest to, Hz.
 const RATE_HZ: f64 = 48_000.0;

@@ -1,7 +1,7 @@
 //! Why a servo loop cannot run on a desk.
 
 use crate::compensation::CompensationError;
-use asperity::textures::TexturesError;
+use asperity::emit::textures::TexturesError;
 use asperity_formats::FormatError;
 use asperity_host::device::OpenError;
 use asperity_host::profile::ProfileError;

@@ -2,7 +2,7 @@
 
 use super::error::ServoSessionError;
 use crate::compensation;
-use asperity::textures::Textures;
+use asperity::emit::textures::Textures;
 use asperity_formats::{Asset, FormatError, Library};
 use asperity_host::profile::Compensation;
 use asperity_host::servo::RATES_HZ;
@@ -30,7 +30,7 @@ impl Surface {
     /// # Errors
     /// None: a test of the compiler makes it as well.
     pub fn built_in() -> Result<Self, ServoSessionError> {
-        let lowered = asperity::lower::lower(&asperity::builtin::texture(), None);
+        let lowered = asperity::emit::lower::lower(&asperity::sources::builtin::texture(), None);
         let lowered = lowered.map_err(|error| ServoSessionError::BuiltIn(error.to_string()))?;
         Self::of_texture(lowered.bytes, "built in".into())
     }

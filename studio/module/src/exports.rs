@@ -5,7 +5,7 @@
     reason = "exports have names, and what lies between two calls is in statics of the only thread"
 )]
 
-use asperity::{inference::Backend, prompt::PromptCompiler};
+use asperity::{learned::inference::Backend, sources::prompt::PromptCompiler};
 use asperity_studio::{Reply, Studio};
 use std::{cell::RefCell, sync::OnceLock};
 

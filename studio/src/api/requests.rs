@@ -1,7 +1,7 @@
 //! Requests in JSON: which fields they have, and within which bounds.
 
 use crate::{error::ApiError, http::Status, making, studio::Studio, texture::Texture};
-use asperity::edit::{AXES, Axis, Edit as Asked, Sliders};
+use asperity::sources::latents::{AXES, Axis, Edit as Asked, Sliders};
 use serde::{Deserialize, de::DeserializeOwned};
 use std::sync::Arc;
 

@@ -4,7 +4,7 @@
 mod tests;
 mod words;
 
-use asperity::edit::Edit;
+use asperity::sources::latents::Edit;
 use asperity_io::{output::FileNames, shown::shell_word};
 use std::{collections::HashMap, path::Path, sync::Arc};
 use words::{options, path_word, quoted};

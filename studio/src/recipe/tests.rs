@@ -1,7 +1,7 @@
 //! Recipes and their commands.
 
 use super::{MOST, Opened, Recipe, What};
-use asperity::edit::{Edit, Sliders};
+use asperity::sources::latents::{Edit, Sliders};
 
 fn compiled(id: &str, prompt: &str, seed: u64) -> Recipe {
     let prompt = prompt.to_owned();

@@ -1,6 +1,6 @@
 //! Words of a command line, for a POSIX shell.
 
-use asperity::edit::{AXES, Axis, Sliders};
+use asperity::sources::latents::{AXES, Axis, Sliders};
 use asperity_io::shown::shell_word;
 use std::borrow::Cow;
 

@@ -206,7 +206,7 @@ impl Seeds {
         Self {
             library: encoded(&named, &[]),
             scene: encoded(&named, &[surface(0), surface(1)]),
-            model: asperity::model_file::to_json(&asperity::builtin::texture()),
+            model: asperity::sources::model_file::to_json(&asperity::sources::builtin::texture()),
             effects: [ClipFormat::Haptic, ClipFormat::Ahap, ClipFormat::Hjif].map(effects),
             shipped,
             asset,

@@ -5,10 +5,9 @@ pub(crate) mod c;
 
 use asperity::{
     driver::{self, Compiled},
-    hatt::Hatt,
+    passes::reduce::Fidelity,
     pipeline::Request,
-    reduce::Fidelity,
-    sources::{Source, Tools},
+    sources::{Source, Tools, hatt::Hatt},
 };
 use std::path::Path;
 
@@ -33,7 +32,7 @@ pub(crate) fn hatt(file: &Path) -> Vec<u8> {
 
 /// The bytes that `asperity builtin` writes.
 pub(crate) fn builtin() -> Vec<u8> {
-    asperity::lower::lower(&asperity::builtin::texture(), None)
+    asperity::emit::lower::lower(&asperity::sources::builtin::texture(), None)
         .expect("the built-in texture")
         .bytes
 }

@@ -85,7 +85,10 @@ fn a_hard_trace_rings_at_its_first_modes() {
         // From 1 ms on, after the contact has opened.
         let ring = &trace[10..];
         let power = |freq_hz: f64| {
-            asperity::spectrum::squared_magnitude(ring, std::f64::consts::TAU * freq_hz / 10_000.0)
+            asperity::signal::spectrum::squared_magnitude(
+                ring,
+                std::f64::consts::TAU * freq_hz / 10_000.0,
+            )
         };
         let strongest = (60..450)
             .map(|tens| f64::from(tens) * 10.0)

@@ -1,10 +1,6 @@
 //! Objective attributes of an instance, as the compiler defines them for a texture.
 
-use asperity::{
-    attributes::Meter,
-    learned::description::{GridDescription, ModelDescription},
-    spectrum::trace_centroid_hz,
-};
+use asperity::{model::attributes::Meter, learned::description::{GridDescription, ModelDescription}, signal::spectrum::trace_centroid_hz};
 use asperity_corpus::{Corpus, Instance, TAP_RATE_HZ, TAPS};
 
 /// What all instances of a corpus share: where their bins and their traces lie.

@@ -1,7 +1,7 @@
 //! The vectors of a corpus's texts: encoded once, used by every fold.
 
 use crate::error::FitError;
-use asperity::text::TextEncoder;
+use asperity::learned::text::TextEncoder;
 use asperity_corpus::{Corpus, Rating, reference::LexiconEntry};
 use rayon::prelude::*;
 

@@ -2,7 +2,7 @@
 //! and back.
 
 use crate::config::Excitation;
-use asperity::level::nyquist_rms;
+use asperity::signal::level::nyquist_rms;
 
 /// What the network sees of a model with these LSFs (rad) and this level (dB).
 pub(crate) fn encode(excitation: Excitation, lsf_rad: &[f32], level_db: f32) -> f32 {

@@ -1,6 +1,6 @@
 //! Why a model cannot be trained.
 
-use asperity::text::TextError;
+use asperity::learned::text::TextError;
 use asperity_io::{diagnostic::Diagnostic, output::OutputError};
 use std::path::PathBuf;
 use thiserror::Error;

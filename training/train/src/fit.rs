@@ -20,7 +20,7 @@ use crate::{
     trained::{Seen, Trained, posteriors},
     vae::{Run, State},
 };
-use asperity::{learned::description::LATENT, text::TextEncoder};
+use asperity::learned::{description::LATENT, text::TextEncoder};
 use asperity_corpus::{Corpus, Rating, reference::LexiconEntry};
 use std::path::Path;
 

@@ -1,6 +1,6 @@
 //! A small corpus and a text encoder for tests.
 
-use asperity::text::{Encoded, TextEncoder, TextError};
+use asperity::learned::text::{Encoded, TextEncoder, TextError};
 use asperity_corpus::{
     BINS, Caption, Corpus, Focus, Instance, Material, ORDER, Rating, TAP_SAMPLES, TAPS,
     UnifiedGrid, reference::LexiconEntry,

@@ -4,7 +4,7 @@ use crate::{
     error::FitError,
     weights::{self, Read, Table},
 };
-use asperity::text::{Encoded, TextEncoder, TextError};
+use asperity::learned::text::{Encoded, TextEncoder, TextError};
 use serde::{Deserialize, Serialize};
 use std::{
     collections::BTreeMap,

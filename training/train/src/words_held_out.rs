@@ -11,7 +11,7 @@ use crate::{
     rng::{Purpose, Stream},
     statistics::mean,
 };
-use asperity::quantile::rank_correlation;
+use asperity::signal::quantile::rank_correlation;
 use asperity_corpus::{Corpus, Rating};
 use rayon::prelude::*;
 use serde::Serialize;

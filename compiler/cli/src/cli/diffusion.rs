@@ -1,8 +1,8 @@
 //! Arguments of pictures by Stable Diffusion.
 
 use asperity::{
-    diffusion::{Method, Options},
-    inference::BackendName,
+    learned::inference::BackendName,
+    views::diffusion::{Method, Options},
 };
 use clap::{Args, value_parser};
 use std::path::PathBuf;

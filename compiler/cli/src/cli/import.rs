@@ -1,7 +1,7 @@
 //! Arguments of the commands that check and import what others measured or modelled.
 
 use super::{ImportEffects, PreviewOptions, ReportOptions};
-use asperity::reduce::Fidelity;
+use asperity::passes::reduce::Fidelity;
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 

@@ -4,8 +4,8 @@ use super::{PreviewOptions, ReportOptions};
 use super::{name, pixels, within};
 use asperity::{
     interchange::{Format, parse_symbol, ranges},
-    preview,
-    reduce::Fidelity,
+    passes::reduce::Fidelity,
+    views::preview,
 };
 use clap::Args;
 use std::path::PathBuf;

@@ -1,7 +1,7 @@
 //! Arguments of the commands that mix and edit in the latent.
 
 use super::{Inference, PreviewOptions, ReportOptions, name};
-use asperity::edit::Part;
+use asperity::sources::latents::Part;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -138,7 +138,7 @@ const SLIDERS: [&str; 8] = [
 ];
 
 fn steps(text: &str) -> Result<f64, String> {
-    let largest = asperity::edit::Sliders::LARGEST;
+    let largest = asperity::sources::latents::Sliders::LARGEST;
     match text.parse() {
         Ok(steps) if (-largest..=largest).contains(&steps) => Ok(steps),
         _ => Err(format!("must be a number from {} to {largest}", -largest)),

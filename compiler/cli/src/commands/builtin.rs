@@ -2,7 +2,10 @@
 
 use super::one_texture::{Job, Wanted};
 use crate::cli::Builtin as Arguments;
-use asperity::{builtin::Builtin, pipeline::Request, sources::Tools};
+use asperity::{
+    pipeline::Request,
+    sources::{Tools, builtin::Builtin},
+};
 use asperity_console::Console;
 use asperity_io::diagnostic::Failures;
 

@@ -6,12 +6,13 @@ use super::{
 };
 use crate::cli::Compile;
 use asperity::{
-    diffusion::framed,
-    edit::{LatentEditor, Scale, explain},
     pipeline::Request,
-    preview,
-    prompt::{self, CompiledPrompt, Picture, Prompt},
-    sources::Tools,
+    sources::{
+        Tools,
+        latents::{LatentEditor, Scale, explain},
+        prompt::{self, CompiledPrompt, Picture, Prompt},
+    },
+    views::{diffusion::framed, preview},
 };
 use asperity_console::Console;
 use asperity_io::{

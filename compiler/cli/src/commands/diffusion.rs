@@ -1,7 +1,7 @@
 //! Pictures by Stable Diffusion, for the commands that take `--diffusion`.
 
 use crate::cli::Diffusion;
-use asperity::diffusion::{self, Drawn};
+use asperity::views::diffusion::{self, Drawn};
 use asperity_console::Console;
 use asperity_io::diagnostic::{Failures, one};
 use std::path::{Path, PathBuf};

@@ -1,10 +1,9 @@
 //! `asperity doctor`.
 
 use crate::cli::Doctor;
-use asperity::{
-    embedded,
+use asperity::learned::{
+    LearnedModel, ModelError, Present, embedded,
     inference::{Backend, BackendName},
-    learned::{LearnedModel, ModelError, Present},
     text::{TextEncoder, TextEncoderChoice},
 };
 use asperity_console::Console;
@@ -148,7 +147,7 @@ fn findings(args: &Doctor) -> Vec<Finding> {
             what: "onnxruntime",
             found: false,
             detail: error.to_string(),
-            remedy: Some(asperity::inference::BackendError::from(error).remedy()),
+            remedy: Some(asperity::learned::inference::BackendError::from(error).remedy()),
         },
     });
     findings.push(clip(args));

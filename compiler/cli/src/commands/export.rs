@@ -2,11 +2,11 @@
 
 use crate::cli::Export;
 use asperity::{
+    emit::textures::Textures,
     interchange::{
         self, Carried, ClipFormat, Exported, Format, Language, Options, SourceOptions,
         export_source, header_beside, session,
     },
-    textures::Textures,
 };
 use asperity_console::Console;
 use asperity_formats::Asset;

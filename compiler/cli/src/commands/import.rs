@@ -6,13 +6,15 @@ use super::{
 };
 use crate::cli::{ImportEffects, ImportModel, ImportRecording};
 use asperity::{
-    effects::{Effects, Kind, Options},
     library::model_files,
-    model_file::ModelFile,
     pipeline::Request,
-    preview,
-    recording::{Recorded, RecordingFolder},
-    sources::{Source, Tools},
+    sources::{
+        Source, Tools,
+        effects::{Effects, Kind, Options},
+        model_file::ModelFile,
+        recording::{Recorded, RecordingFolder},
+    },
+    views::preview,
 };
 use asperity_console::Console;
 use asperity_io::diagnostic::Failures;

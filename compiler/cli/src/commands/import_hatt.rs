@@ -4,10 +4,13 @@ use super::{inference, outputs::TextureOutputs, timings};
 use crate::cli::ImportHatt;
 use asperity::{
     driver::{self, Compiled},
-    hatt::{self, Hatt},
-    library::{self, NamedAsset, model_files},
+    emit::pack::{self, NamedAsset},
+    library::model_files,
     pipeline::{Clock, Pass, Pipeline, Request},
-    sources::Tools,
+    sources::{
+        Tools,
+        hatt::{self, Hatt},
+    },
 };
 use asperity_console::Console;
 use asperity_io::{
@@ -207,7 +210,7 @@ fn packed(imported: &[Compiled]) -> Result<Vec<u8>, Failures> {
             bytes: &material.lowered.bytes,
         })
         .collect();
-    library::encode(&named).map_err(one)
+    pack::encode(&named).map_err(one)
 }
 
 /// One line a material, and of several a summary.

@@ -1,7 +1,10 @@
 //! From options to encoders, models and back ends, and what identifies this program.
 
 use crate::cli::Inference;
-use asperity::{inference::Backend, learned::LearnedModel, library::Setup};
+use asperity::{
+    learned::{LearnedModel, inference::Backend},
+    library::Setup,
+};
 use asperity_io::diagnostic::Failures;
 use std::path::Path;
 

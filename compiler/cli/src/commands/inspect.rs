@@ -2,10 +2,9 @@
 
 use crate::cli::Inspect;
 use asperity::{
-    attributes::{Attributes, Meter},
-    inspect::{self, Document, LibraryDocument, SurfaceDocument},
-    raise::attributes,
-    textures::Textures,
+    emit::{raise::attributes, textures::Textures},
+    model::attributes::{Attributes, Meter},
+    views::inspect::{self, Document, LibraryDocument, SurfaceDocument},
 };
 use asperity_console::Console;
 use asperity_formats::{Asset, library};

@@ -2,8 +2,8 @@
 
 use crate::cli::Listen;
 use asperity::{
-    listen::{self, Gesture, Heard, Part, SOUND_HZ},
-    textures::Textures,
+    emit::textures::Textures,
+    views::listen::{self, Gesture, Heard, Part, SOUND_HZ},
 };
 use asperity_console::Console;
 use asperity_formats::Asset;

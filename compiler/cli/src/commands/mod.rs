@@ -24,7 +24,7 @@ mod studio;
 mod timings;
 
 use crate::cli::{Cli, Command, Import};
-use asperity::effects::Kind;
+use asperity::sources::effects::Kind;
 use asperity_console::{Console, clean_up_on_interrupt};
 use asperity_io::diagnostic::{Failures, one};
 

@@ -3,10 +3,10 @@
 use super::{outputs::TextureOutputs, timings};
 use asperity::{
     driver::{self, Compiled},
+    emit::verify::VerifyError,
     pipeline::{Clock, Pipeline, Request},
-    plot,
     sources::{Source, Tools},
-    verify::VerifyError,
+    views::plot,
 };
 use asperity_console::Console;
 use asperity_formats::Asset;

@@ -2,8 +2,8 @@
 
 use asperity::{
     model::TextureModel,
-    model_file,
     pipeline::{Pass, Pipeline},
+    sources::model_file,
 };
 use asperity_console::Console;
 use asperity_io::{

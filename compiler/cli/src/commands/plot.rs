@@ -1,7 +1,7 @@
 //! `asperity plot`.
 
 use crate::cli::Plot;
-use asperity::{plot, textures::Textures};
+use asperity::{emit::textures::Textures, views::plot};
 use asperity_console::Console;
 use asperity_formats::Asset;
 use asperity_io::{

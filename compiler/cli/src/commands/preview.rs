@@ -3,10 +3,11 @@
 use super::diffusion;
 use crate::cli::Preview;
 use asperity::{
-    diffusion::prompt_of,
-    preview::{self, PreviewError, SIZE},
-    raise::raise,
-    textures::Textures,
+    emit::{raise::raise, textures::Textures},
+    views::{
+        diffusion::prompt_of,
+        preview::{self, PreviewError, SIZE},
+    },
 };
 use asperity_console::Console;
 use asperity_formats::Asset;

@@ -1,7 +1,7 @@
 //! `asperity record-check`.
 
 use crate::cli::RecordCheck;
-use asperity::recording;
+use asperity::sources::recording;
 use asperity_console::Console;
 use asperity_io::{
     diagnostic::{Diagnostic, Failures, one},

@@ -2,8 +2,8 @@
 
 use crate::cli::Render;
 use asperity::{
-    render::{self, RenderError},
-    textures::Textures,
+    emit::textures::Textures,
+    views::render::{self, RenderError},
 };
 use asperity_console::Console;
 use asperity_formats::{Asset, Library};

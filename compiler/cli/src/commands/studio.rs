@@ -1,7 +1,7 @@
 //! `asperity studio`.
 
 use crate::cli::Studio as Arguments;
-use asperity::{inference::Backend, prompt::PromptCompiler};
+use asperity::{learned::inference::Backend, sources::prompt::PromptCompiler};
 use asperity_console::{Console, on_interrupt};
 use asperity_io::{
     diagnostic::{Failure, Failures, one, texts},

@@ -1,10 +1,10 @@
 //! Lowers a [`TextureModel`] to the bytes of an asset, and measures what rounding costs.
 //!
 //! Every parameter is rounded to its code, equal models are stored once, and the sections are encoded. Lowering checks
-//! shapes and ranges; how the bytes render is for [`verify`](crate::verify) to say. [`raise`](crate::raise) goes back.
+//! shapes and ranges; how the bytes render is for [`verify`](crate::emit::verify) to say. [`raise`](crate::emit::raise) goes back.
 //!
 //! ```
-//! use asperity::{builtin, lower::lower, verify::SPECTRUM_BUDGET_DB};
+//! use asperity::{sources::builtin, emit::{lower::lower, verify::SPECTRUM_BUDGET_DB}};
 //! use asperity_formats::Asset;
 //!
 //! let texture = builtin::texture();
@@ -13,7 +13,7 @@
 //!
 //! let asset = Asset::parse(&lowered.bytes).expect("bytes that the encoder has parsed");
 //! assert_eq!(asset.grid().vertices().count(), texture.grid.vertices.len());
-//! # Ok::<(), asperity::lower::LowerError>(())
+//! # Ok::<(), asperity::emit::lower::LowerError>(())
 //! ```
 
 mod error;

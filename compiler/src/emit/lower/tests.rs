@@ -1,9 +1,9 @@
 //! Size, rounding and refusals of the back end.
 
 use super::*;
-use crate::{emit::raise::raise, passes::triangulate, sources::builtin};
+use crate::{emit::raise::raise, sources::builtin};
 use asperity_texture::{
-    model::{FrictionLaw, GridVertex, LawPoint},
+    model::{FrictionLaw, GridVertex, LawPoint, triangulate},
     signal::spectrum::{ArmaModel, log_spectral_distance_db},
 };
 use proptest::prelude::*;

@@ -3,14 +3,14 @@
 //! Of a library file, only the index and the chosen textures are read.
 //!
 //! ```
-//! use asperity::{builtin, lower::lower, textures::Textures};
+//! use asperity::{sources::builtin, emit::{lower::lower, textures::Textures}};
 //! use std::path::Path;
 //!
 //! let bytes = lower(&builtin::texture(), None).expect("a texture that fits an asset").bytes;
 //! let mut file = Textures::from_reader(Path::new("grit.asp"), &bytes[..])?;
 //! assert!(!file.is_library());
 //! assert_eq!(file.choose(None)?, bytes);
-//! # Ok::<(), asperity::textures::TexturesError>(())
+//! # Ok::<(), asperity::emit::textures::TexturesError>(())
 //! ```
 
 mod conversion;

@@ -2,8 +2,10 @@
 
 use super::*;
 use crate::{
-    emit::lower::lower,
-    library::{NamedAsset, encode},
+    emit::{
+        lower::lower,
+        pack::{NamedAsset, encode},
+    },
     sources::builtin,
 };
 use asperity_formats::Asset;

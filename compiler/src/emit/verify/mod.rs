@@ -4,11 +4,7 @@
 //! lost and absurd samples must stay within the limits of force.
 //!
 //! ```
-//! use asperity::{
-//!     builtin,
-//!     lower::lower,
-//!     verify::{VerifyError, verify},
-//! };
+//! use asperity::{sources::builtin, emit::{lower::lower, verify::{VerifyError, verify}}};
 //!
 //! let texture = builtin::texture();
 //! let bytes = lower(&texture, None).expect("a texture that fits an asset").bytes;

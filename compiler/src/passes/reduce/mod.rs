@@ -6,10 +6,7 @@
 //! middle of every edge and triangle, compared with the whole texture.
 //!
 //! ```
-//! use asperity::{
-//!     builtin,
-//!     reduce::{BUDGET_DB, Fidelity, reduce},
-//! };
+//! use asperity::{sources::builtin, passes::reduce::{BUDGET_DB, Fidelity, reduce}};
 //!
 //! let whole = builtin::texture();
 //! let report = reduce(&whole, Fidelity::Auto).report;

@@ -279,7 +279,7 @@ fn cross(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::passes::triangulate;
+    use asperity_texture::model::triangulate;
     use asperity_texture::model::{Numerator, VertexKind};
 
     /// A grid of 5 × 5 vertices of one shape; levels by position.

@@ -5,12 +5,7 @@
 //! level follows from the accelerations that the user states for a full scale.
 //!
 //! ```
-//! use asperity::{
-//!     driver,
-//!     effects::{Effects, Kind, Options},
-//!     pipeline::Request,
-//!     sources::Tools,
-//! };
+//! use asperity::{driver, sources::{effects::{Effects, Kind, Options}, Tools}, pipeline::Request};
 //!
 //! # let folder = tempfile::tempdir().expect("a temporary folder");
 //! // A file with a single transient.

@@ -8,7 +8,6 @@ use crate::{
         playback::{Track, Transient},
     },
     learned::edges,
-    passes::triangulate,
     pipeline::{Pass, Pipeline, Request, Ringing},
     sources::{ManifestSource, Source, SourceOutput, Tools, key::Parts},
 };
@@ -19,7 +18,7 @@ use asperity_io::{
 };
 use asperity_texture::model::{
     Friction, ModelGrid, Numerator, Provenance, TapBank, TapTrace, TextureModel, defaults,
-    tap_synthesis,
+    tap_synthesis, triangulate,
 };
 use std::path::{Path, PathBuf};
 

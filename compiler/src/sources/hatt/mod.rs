@@ -5,7 +5,7 @@
 //! triangle in source order. What HaTT does not hold is synthesised or set to a default, and the provenance says so.
 //!
 //! ```
-//! use asperity::hatt;
+//! use asperity::sources::hatt;
 //! use std::path::Path;
 //!
 //! # let list = |tag: &str, values: &[f64]| {

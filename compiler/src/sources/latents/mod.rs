@@ -7,10 +7,8 @@
 //! ```
 //! use asperity::{
 //!     driver,
-//!     edit::{Edit, LatentEditor, Sliders},
-//!     inference::Backend,
-//!     prompt::{Options, PromptCompiler},
-//!     sources::Tools,
+//!     sources::{latents::{Edit, LatentEditor, Sliders}, prompt::{Options, PromptCompiler}, Tools},
+//!     learned::inference::Backend,
 //! };
 //! use asperity_formats::Asset;
 //!

@@ -4,8 +4,8 @@ use super::{
     error::{Fault, ModelFileProblem as Problem},
     schema::{Document, Friction, Grid, Taps, Vertex},
 };
-use crate::passes::triangulate;
 use asperity_formats::limits;
+use asperity_texture::model::triangulate;
 use asperity_texture::model::{
     self, FrictionLaw, Gains, GridVertex, ModelGrid, Numerator, TapBank, TapTrace, TextureModel,
     Wall, defaults, mesh, tap_synthesis,

@@ -4,10 +4,7 @@
 //! compiles it. `docs/model.md` documents the format.
 //!
 //! ```
-//! use asperity::{
-//!     builtin,
-//!     model_file::{from_json, to_json},
-//! };
+//! use asperity::sources::{builtin, model_file::{from_json, to_json}};
 //!
 //! let texture = builtin::texture();
 //! let read = from_json(&to_json(&texture)).expect("a file that this crate wrote");

@@ -10,7 +10,11 @@
 //! looked at one by one:
 //!
 //! ```
-//! use asperity::{attributes, inference::Backend, learned::Certainty, prompt::PromptCompiler};
+//! use asperity::{
+//!     model::attributes,
+//!     learned::{inference::Backend, Certainty},
+//!     sources::prompt::PromptCompiler,
+//! };
 //!
 //! let prompt_compiler = PromptCompiler::embedded(&Backend::Portable)?;
 //! let projection = prompt_compiler.project("please, some very rough gravel")?;

@@ -3,11 +3,7 @@
 //! The names and the meaning of the JSON fields are a contract.
 //!
 //! ```
-//! use asperity::{
-//!     builtin,
-//!     inspect::{Document, text},
-//!     lower::lower,
-//! };
+//! use asperity::{sources::builtin, views::inspect::{Document, text}, emit::lower::lower};
 //! use asperity_formats::Asset;
 //!
 //! let bytes = lower(&builtin::texture(), None).expect("a texture that fits an asset").bytes;

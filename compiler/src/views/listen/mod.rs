@@ -1,11 +1,7 @@
 //! Strokes and taps as sound: what the runtime renders for a hand that performs one after the other.
 //!
 //! ```
-//! use asperity::{
-//!     builtin,
-//!     listen::{Gesture, perform},
-//!     lower::lower,
-//! };
+//! use asperity::{sources::builtin, views::listen::{Gesture, perform}, emit::lower::lower};
 //! use asperity_formats::Asset;
 //!
 //! let bytes = lower(&builtin::texture(), None).expect("a texture that fits an asset").bytes;
@@ -14,7 +10,7 @@
 //! let performance = perform(&asset, &stroke, None, 1)?;
 //! let (_, vibration_m_s2) = &performance.strokes[0];
 //! assert!(vibration_m_s2.iter().any(|a| a.abs() > 0.0) && performance.taps.is_empty());
-//! # Ok::<(), asperity::listen::ListenError>(())
+//! # Ok::<(), asperity::views::listen::ListenError>(())
 //! ```
 
 mod hand;

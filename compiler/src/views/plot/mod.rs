@@ -3,7 +3,7 @@
 //! It is drawn with `asperity-plot`, like every Asperity picture.
 //!
 //! ```
-//! use asperity::{builtin, plot};
+//! use asperity::{sources::builtin, views::plot};
 //!
 //! let png = plot::sheet(&builtin::texture(), None).expect("the embedded font and an encoder");
 //! assert!(png.starts_with(b"\x89PNG"));

@@ -1,7 +1,7 @@
 //! Running the runtime offline: from a trajectory to what a hand would feel.
 //!
 //! ```
-//! use asperity::{builtin, lower::lower, render::render};
+//! use asperity::{sources::builtin, emit::lower::lower, views::render::render};
 //! use asperity_formats::Asset;
 //! use std::path::Path;
 //!
@@ -13,7 +13,7 @@
 //! let report = render(&asset, None, Path::new("stroke.csv"), stroke.as_bytes(), &mut table, 1)?;
 //! assert_eq!((report.ticks, report.contact_ticks), (3, 3));
 //! assert!(table.starts_with(b"tick,t_s,depth_mm,"));
-//! # Ok::<(), asperity::render::RenderError>(())
+//! # Ok::<(), asperity::views::render::RenderError>(())
 //! ```
 
 mod columns;

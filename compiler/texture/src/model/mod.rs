@@ -10,6 +10,7 @@ pub mod mixture;
 pub mod shift;
 pub mod tap_synthesis;
 mod texture;
+pub mod triangulate;
 
 pub use friction_law::{FrictionLaw, LawPoint};
 pub use texture::{

@@ -159,7 +159,7 @@ pub(crate) fn step_down<P: Number>(coefficients: &Row<P>, order: usize) -> Row<P
 mod tests {
     use super::*;
     use alloc::vec::Vec;
-    use asperity::{lsf, reflection};
+    use asperity::signal::{lsf, reflection};
 
     fn angles(order: usize) -> Vec<f64> {
         let step = core::f64::consts::PI / (order + 1) as f64;

@@ -1,6 +1,6 @@
 //! What can go wrong on the bench.
 
-use asperity::{learned::ModelError, recording::RecordingFailure};
+use asperity::{learned::ModelError, sources::recording::RecordingFailure};
 use asperity_io::diagnostic::Diagnostic;
 use thiserror::Error;
 

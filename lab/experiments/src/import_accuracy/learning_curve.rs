@@ -1,6 +1,6 @@
 //! A learning curve: how well textures come back after so many seconds, and what the check of a recording finds.
 
-use asperity::{model::TextureModel, pipeline::Clock, recording};
+use asperity::{model::TextureModel, pipeline::Clock, sources::recording};
 use asperity_recording::check::Severity;
 use rayon::prelude::*;
 use serde::Serialize;

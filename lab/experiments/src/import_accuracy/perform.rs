@@ -1,6 +1,6 @@
 //! A hand strokes and taps a texture on the simulated Touch.
 
-use asperity::{lower, model::TextureModel};
+use asperity::{emit::lower, model::TextureModel};
 use asperity_formats::Asset;
 use asperity_runtime::{Config, HostTexture, Limits, Renderer};
 

@@ -2,10 +2,9 @@
 
 use super::error::ImportAccuracyError;
 use asperity::{
-    builtin, embedded,
-    inference::Backend,
-    learned::{LearnedModel, texture::build},
+    learned::{LearnedModel, embedded, inference::Backend, texture::build},
     model::{Provenance, TextureModel},
+    sources::builtin,
 };
 
 /// The built-in texture, followed by at most `count` materials that the embedded model was trained on, as

@@ -2,8 +2,8 @@
 
 use asperity::{
     model::{ModelGrid, TapBank, TextureModel, mixture::Field},
-    recording::Analysis,
-    spectrum::log_spectral_distance_db,
+    signal::spectrum::log_spectral_distance_db,
+    sources::recording::Analysis,
 };
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -132,7 +132,7 @@ struct Visit {
 
 /// The cells that were visited long enough.
 fn visited(grid: &ModelGrid, visits: impl IntoIterator<Item = (f32, f32)>) -> Vec<(Place, Visit)> {
-    let (width, height) = asperity::mesh::corner(grid);
+    let (width, height) = asperity::model::mesh::corner(grid);
     let mut cells: BTreeMap<Place, (usize, f64, f64)> = BTreeMap::new();
     for (speed, force) in visits {
         let (speed, force) = (f64::from(speed), f64::from(force));

@@ -2,9 +2,11 @@
 
 use super::{calibration::Generated, signature::Signature};
 use asperity::{
-    attributes::{self, Attributes},
-    model::TextureModel,
-    prompt::{Options, PromptCompiler},
+    model::{
+        TextureModel,
+        attributes::{self, Attributes},
+    },
+    sources::prompt::{Options, PromptCompiler},
 };
 use asperity_corpus::{CorpusError, generator::Physical, hatt};
 use rayon::prelude::*;

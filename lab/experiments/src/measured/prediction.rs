@@ -5,7 +5,7 @@ use super::{
     ridge,
     signature::{BANDS, STROKES, Signature},
 };
-use asperity::attributes::Attributes;
+use asperity::model::attributes::Attributes;
 
 /// A way to predict a measured material.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

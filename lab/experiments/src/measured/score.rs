@@ -5,7 +5,7 @@ use super::{
     prediction::Method,
     signature::{Difference, Signature},
 };
-use asperity::quantile::{median, quantile};
+use asperity::signal::quantile::{median, quantile};
 use rand_core::{Rng as _, SeedableRng as _};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::Serialize;

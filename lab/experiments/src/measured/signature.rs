@@ -1,6 +1,9 @@
 //! The band levels that a prediction is judged by.
 
-use asperity::{mixture::Field, model::ModelGrid, spectrum::ArmaModel};
+use asperity::{
+    model::{ModelGrid, mixture::Field},
+    signal::spectrum::ArmaModel,
+};
 use std::array;
 
 /// Speeds of the strokes, mm/s.

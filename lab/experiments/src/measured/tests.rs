@@ -8,7 +8,7 @@ use super::{
     signature::{BANDS, STROKES, Signature},
     trend::FEWEST,
 };
-use asperity::attributes::Attributes;
+use asperity::model::attributes::Attributes;
 
 /// Level of every band in every stroke, dB.
 fn flat(level_db: f64) -> Vibration {

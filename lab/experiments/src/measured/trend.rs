@@ -6,7 +6,7 @@ use super::{
     score::{Figure, figure, names},
     signature::{BANDS, MIDDLE, centre_hz},
 };
-use asperity::quantile::{mean, median, rank_correlation};
+use asperity::signal::quantile::{mean, median, rank_correlation};
 use serde::Serialize;
 use std::array;
 

@@ -7,10 +7,11 @@ use super::noise::{gaussian, uniform};
 use super::statistics::model_rms;
 use crate::signal::rms;
 use asperity::{
-    mixture::{Field, Place, places},
-    model::ModelGrid,
-    reflection,
-    spectrum::ArmaModel,
+    model::{
+        ModelGrid,
+        mixture::{Field, Place, places},
+    },
+    signal::{reflection, spectrum::ArmaModel},
 };
 use asperity_kernels::design::Design;
 use rand_core::{Rng as _, SeedableRng as _};
@@ -202,7 +203,7 @@ fn motion(
     ticks: usize,
     random: &mut Xoshiro256PlusPlus,
 ) -> Option<Vec<Place>> {
-    let (max_speed, max_force) = asperity::mesh::corner(grid);
+    let (max_speed, max_force) = asperity::model::mesh::corner(grid);
     let (stroke, press) = (uniform(random), uniform(random));
     (0..ticks)
         .map(|tick| {
@@ -252,7 +253,7 @@ fn decibels(ratio: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::pareto::statistics::Spread;
-    use asperity::builtin;
+    use asperity::sources::builtin;
     use asperity_kernels::design::Shape;
 
     fn spread(values: &[f64]) -> Spread {

@@ -6,7 +6,7 @@
 //! start-up.
 
 use asperity::{
-    lower,
+    emit::lower,
     model::{ModelGrid, Numerator, TextureModel},
 };
 use asperity_kernels::{
@@ -177,7 +177,7 @@ pub fn bytes(texture: &TextureModel, grid: &ModelGrid, lsf_bits: u32) -> Option<
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity::builtin;
+    use asperity::sources::builtin;
 
     #[test]
     fn the_hidden_command_knows_every_kernel() {

@@ -1,6 +1,6 @@
 //! How two power spectra differ.
 
-use asperity::spectrum::{ArmaModel, ErrorBand};
+use asperity::signal::spectrum::{ArmaModel, ErrorBand};
 
 /// How many frequencies spectra are compared at, four hertz apart.
 const POINTS: usize = 111;

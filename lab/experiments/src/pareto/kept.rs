@@ -1,6 +1,6 @@
 //! What `--fidelity auto` keeps of a material.
 
-use asperity::reduce::{self, BUDGET_DB};
+use asperity::passes::reduce::{self, BUDGET_DB};
 use asperity_kernels::workload::Orders;
 
 /// One material after `--fidelity auto`.

@@ -1,9 +1,8 @@
 //! Kernels for the compiler's models.
 
 use asperity::{
-    mixture::Place,
-    model::{self, ModelGrid},
-    spectrum::ArmaModel,
+    model::{self, ModelGrid, mixture::Place},
+    signal::spectrum::ArmaModel,
 };
 use asperity_kernels::{
     Rendering,

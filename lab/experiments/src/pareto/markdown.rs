@@ -6,7 +6,7 @@ use super::kept::Kept;
 use super::measure::Results;
 use super::statistics::{Spread, percentile};
 use super::summary::VariantSummary;
-use asperity::reduce::Change;
+use asperity::passes::reduce::Change;
 use asperity_kernels::design::Factor;
 use std::fmt::Write as _;
 
@@ -125,7 +125,7 @@ fn predictions(text: &mut String, region: Region, held_out: &[MethodSummary]) {
 fn kept(text: &mut String, results: &Results) {
     let kept = &results.kept;
     let median = |values: Vec<f64>| number(percentile(&values, 0.5).map(|x| 100.0 * x), 0);
-    let percent_kept = |change: fn(&asperity::reduce::Report) -> Change| {
+    let percent_kept = |change: fn(&asperity::passes::reduce::Report) -> Change| {
         let of = |kept: &Kept| {
             let Change { full, kept } = change(&kept.report);
             (full > 0).then(|| kept as f64 / full as f64)
@@ -137,7 +137,7 @@ fn kept(text: &mut String, results: &Results) {
         .iter()
         .filter_map(|k| k.bytes)
         .map(|(full, kept)| kept as f64 / full as f64);
-    let largest = |value: fn(&asperity::reduce::Report) -> f64| {
+    let largest = |value: fn(&asperity::passes::reduce::Report) -> f64| {
         kept.iter().map(|k| value(&k.report)).fold(0.0, f64::max)
     };
     let _ = write!(

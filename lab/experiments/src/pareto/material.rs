@@ -1,15 +1,13 @@
 //! The textures that are measured: a user's HaTT folder, or the reference corpus.
 
 use asperity::{
-    defaults,
-    hatt::{self, HattError},
     learned::edges,
-    level::nyquist_rms,
     model::{
         Friction, GridVertex, ModelGrid, Numerator, Provenance, TapBank, TapTrace, TextureModel,
-        VertexKind, Wall,
+        VertexKind, Wall, defaults, triangulate,
     },
-    triangulate,
+    signal::level::nyquist_rms,
+    sources::hatt::{self, HattError},
 };
 use asperity_corpus::{
     CorpusError, Material, SAMPLE_RATE_HZ, TAP_RATE_HZ, UnifiedGrid,

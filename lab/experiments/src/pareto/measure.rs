@@ -9,7 +9,7 @@ use super::{
 };
 use asperity::{
     model::{ModelGrid, Numerator, TextureModel},
-    reduce::{self, Fidelity, Reference, order::Fits},
+    passes::reduce::{self, Fidelity, Reference, order::Fits},
 };
 use asperity_kernels::{
     design::{Design, Order, Variant, variants},
@@ -255,7 +255,7 @@ impl<'a> Grids<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity::builtin;
+    use asperity::sources::builtin;
 
     #[test]
     fn the_same_seed_gives_the_same_errors_whatever_the_threads() {

@@ -1,6 +1,6 @@
 //! Percentiles, and the level of a model.
 
-use asperity::spectrum::ArmaModel;
+use asperity::signal::spectrum::ArmaModel;
 
 /// Frequencies over which a power is summed.
 const POINTS: u32 = 1024;

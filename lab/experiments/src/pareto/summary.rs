@@ -2,7 +2,7 @@
 
 use super::accuracy::Errors;
 use super::statistics::{Spread, percentile};
-use asperity::reduce::BUDGET_DB;
+use asperity::passes::reduce::BUDGET_DB;
 use asperity_kernels::{design::Variant, workload::Orders};
 
 /// One variant on one material.

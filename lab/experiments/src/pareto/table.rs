@@ -12,7 +12,7 @@ use super::cortex_m::CortexM;
 use super::held_out::MethodSummary;
 use super::measure::Results;
 use super::statistics::Spread;
-use asperity::reduce::Change;
+use asperity::passes::reduce::Change;
 use asperity_kernels::design::{Design, Variant};
 
 fn number(value: f64) -> String {

@@ -1,7 +1,7 @@
 //! A change of the texture in the middle of a stroke.
 
 use super::unbounded;
-use asperity::{lower::lower, lsf};
+use asperity::{emit::lower::lower, signal::lsf};
 use asperity_formats::Asset;
 use asperity_runtime::{Exchange, Renderer, Sample, State, stage::excitation::Excitation};
 
@@ -20,7 +20,7 @@ const CHANGES: usize = 40;
 /// Two textures of one filter each, with poles of radius 0.986 at 60 Hz and at 400 Hz. The
 /// second is an eighth as loud.
 fn textures() -> Result<[Material; 2], StabilityError> {
-    let like = asperity::builtin::texture();
+    let like = asperity::sources::builtin::texture();
     let texture = |hz: f64, level_m_s2: f64| {
         let lsf_rad = lsf::from_polynomial(&resonant(hz)).expect("a stable filter");
         let mut vertex = like.grid.vertices[0].clone();
@@ -33,7 +33,7 @@ fn textures() -> Result<[Material; 2], StabilityError> {
 
 /// Two textures that hardly vibrate, of walls of 500 and 250 N/m, 2 mm deep, and μ of 0.7 and 0.2.
 fn walls() -> Result<[Material; 2], StabilityError> {
-    let like = asperity::builtin::texture();
+    let like = asperity::sources::builtin::texture();
     let texture = |stiffness_n_m: f64, mu: f64| {
         let mut vertex = like.grid.vertices[0].clone();
         vertex.sigma_m_s2 = 1e-6;

@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use asperity::lsf;
 use asperity::model::{GridVertex, Numerator, VertexKind};
+use asperity::signal::lsf;
 use rand_core::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -42,7 +42,7 @@ fn distance_db(exact: &[f64], found: &[f64]) -> f64 {
 
 /// The filter that the runtime makes of these LSFs: 16-bit codes, cosines in f32.
 fn rendered(lsf_rad: &[f64]) -> Vec<f64> {
-    let mut like = asperity::builtin::texture();
+    let mut like = asperity::sources::builtin::texture();
     like.grid.numerator = Numerator::None;
     let vertex = GridVertex {
         speed_mm_s: 0.0,

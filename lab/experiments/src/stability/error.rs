@@ -8,7 +8,7 @@ use asperity_plot::PlotError;
 pub enum StabilityError {
     /// A HaTT folder was refused.
     #[error(transparent)]
-    Hatt(#[from] asperity::hatt::HattError),
+    Hatt(#[from] asperity::sources::hatt::HattError),
     /// A HaTT material could not be imported.
     #[error("{0}")]
     Import(asperity::driver::Failure),
@@ -17,7 +17,7 @@ pub enum StabilityError {
     Config(#[from] asperity_sim::config::ConfigError),
     /// A texture could not be lowered.
     #[error(transparent)]
-    Lower(#[from] asperity::lower::LowerError),
+    Lower(#[from] asperity::emit::lower::LowerError),
     /// A picture could not be drawn.
     #[error(transparent)]
     Plot(#[from] PlotError),

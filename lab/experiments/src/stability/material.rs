@@ -4,10 +4,9 @@ use std::path::Path;
 
 use asperity::{
     driver,
-    hatt::Hatt,
     model::{GridVertex, TextureModel, VertexKind},
     pipeline::Request,
-    sources::Tools,
+    sources::{Tools, hatt::Hatt},
 };
 use asperity_formats::Asset;
 use asperity_runtime::HostTexture;
@@ -42,7 +41,7 @@ impl Material {
     /// [`StabilityError::Lower`].
     pub fn new(model: TextureModel) -> Result<Self, StabilityError> {
         Ok(Self::from_bytes(
-            &asperity::lower::lower(&model, None)?.bytes,
+            &asperity::emit::lower::lower(&model, None)?.bytes,
         ))
     }
 
@@ -76,7 +75,7 @@ impl Material {
     /// If the runtime refuses what the compiler wrote.
     fn from_bytes(bytes: &[u8]) -> Self {
         let asset = Asset::parse(bytes).expect("the compiler's own bytes");
-        let model = asperity::raise::raise(&asset);
+        let model = asperity::emit::raise::raise(&asset);
         let mut slot = Box::new(HostTexture::new());
         slot.load(&asset, model.grid.sample_rate_hz as f32)
             .expect("a slot of full size");
@@ -92,7 +91,7 @@ impl Material {
     /// # Errors
     /// [`StabilityError::Lower`].
     pub fn built_in() -> Result<Self, StabilityError> {
-        Self::new(asperity::builtin::texture())
+        Self::new(asperity::sources::builtin::texture())
     }
 
     /// The coefficients [1, a_1, …] that the runtime renders with at a speed and a force.
@@ -113,7 +112,7 @@ impl Material {
     /// # Errors
     /// [`StabilityError::Lower`].
     pub fn silent(stiffness_n_m: f64, damping_n_s_m: f64) -> Result<Self, StabilityError> {
-        let mut model = asperity::builtin::texture();
+        let mut model = asperity::sources::builtin::texture();
         model.taps.traces.clear();
         for vertex in &mut model.grid.vertices {
             vertex.sigma_m_s2 = 0.0;
@@ -133,7 +132,7 @@ pub fn all(hatt: Option<&Path>) -> Result<Vec<Material>, StabilityError> {
     let Some(folder) = hatt else {
         return Ok(materials);
     };
-    for file in asperity::hatt::files(folder)? {
+    for file in asperity::sources::hatt::files(folder)? {
         let stem = file.file_stem().unwrap_or_default().to_string_lossy();
         let name = stem.trim_start_matches("Models_");
         if !HARD.contains(&name) {

@@ -1,6 +1,6 @@
 //! Mixtures of models, and models that change every sample.
 
-use asperity::lsf;
+use asperity::signal::lsf;
 use asperity_runtime::quantity::Quantity;
 use asperity_runtime::stage::excitation::Excitation;
 use asperity_runtime::stage::vibration::Vibration;

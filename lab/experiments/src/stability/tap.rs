@@ -146,7 +146,7 @@ const TWICE: Words = Words {
 pub fn rows() -> Result<Vec<Row>, StabilityError> {
     let material = Material::built_in()?;
     let mut rows = Vec::new();
-    let mut silent = asperity::builtin::texture();
+    let mut silent = asperity::sources::builtin::texture();
     silent.taps.traces.clear();
     let without_taps = Material::new(silent)?;
     for (scenario, ticks, path, wanted) in [

@@ -1,6 +1,6 @@
 //! Strokes at six speeds: models of five of them predict the sixth.
 
-use asperity::{model::mixture::Field, recording, spectrum::ArmaModel};
+use asperity::{model::mixture::Field, signal::spectrum::ArmaModel, sources::recording};
 use asperity_recording::{
     segments::{self, Segments},
     signal::resample::Clock,

@@ -1,6 +1,6 @@
 //! Hands that draw: their trajectories through `render` and over the simulated Touch.
 
-use asperity::{lower, render::render};
+use asperity::{emit::lower, views::render::render};
 use asperity_formats::Asset;
 use asperity_runtime::{Config, Flags, HostTexture, Limits, Renderer};
 use asperity_sim::{

@@ -2,7 +2,7 @@
 
 use std::{fmt::Write as _, path::PathBuf};
 
-use asperity::{hatt, model::TextureModel};
+use asperity::{model::TextureModel, sources::hatt};
 use asperity_console::Console;
 use asperity_experiments::import_accuracy::{
     self, Checks, Figures, MOST_FREE_TAPS, Resonance, Row, Sensors, Strokes, Until,

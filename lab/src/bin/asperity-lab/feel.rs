@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use asperity::textures::Textures;
+use asperity::emit::textures::Textures;
 use asperity_console::Console;
 use asperity_formats::Asset;
 use asperity_io::diagnostic::{Failures, one};
@@ -151,7 +151,8 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
 /// Bytes of the asset to feel, and where it came from.
 fn texture(arguments: &Arguments) -> Result<(Vec<u8>, String), Failures> {
     let Some(path) = &arguments.file else {
-        let lowered = asperity::lower::lower(&asperity::builtin::texture(), None).map_err(one)?;
+        let lowered = asperity::emit::lower::lower(&asperity::sources::builtin::texture(), None)
+            .map_err(one)?;
         return Ok((lowered.bytes, "built in".to_owned()));
     };
     let mut textures = Textures::open(path).map_err(one)?;

@@ -2,7 +2,11 @@
 
 use std::path::PathBuf;
 
-use asperity::{hatt, inference::BackendName, library::Setup, text::TextEncoderChoice};
+use asperity::{
+    learned::{inference::BackendName, text::TextEncoderChoice},
+    library::Setup,
+    sources::hatt,
+};
 use asperity_console::Console;
 use asperity_experiments::{
     measured::{Comparison, calibration, chart, markdown, material},

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use asperity::hatt;
+use asperity::sources::hatt;
 use asperity_console::Console;
 use asperity_experiments::pareto::cortex_m::{self, CortexM};
 use asperity_experiments::pareto::held_out::summaries;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use asperity::hatt;
+use asperity::sources::hatt;
 use asperity_console::Console;
 use asperity_experiments::stability::{StabilityOptions, markdown, run as make_table, sheet};
 use asperity_io::diagnostic::{Failures, one};

@@ -2,7 +2,7 @@
 
 use super::transfer::POINTS;
 use crate::ORDER;
-use asperity::{levinson, lsf};
+use asperity::signal::{levinson, lsf};
 use std::{f64::consts::PI, sync::LazyLock};
 
 /// cos(lag·ω) at the midpoints, one row for each lag.

@@ -55,7 +55,7 @@ impl Physical {
 /// Impact speeds of the bank, m/s: 0.025 to 0.325, as for imported textures.
 #[must_use]
 pub fn tap_speeds_m_s() -> [f64; TAPS] {
-    asperity::impact::speeds_m_s()
+    asperity::signal::impact::speeds_m_s()
 }
 
 /// The texture of a surface on a grid.
@@ -84,5 +84,5 @@ pub fn wall_stiffness_n_m(physical: &Physical) -> f64 {
     // From 0.03 MPa, a sponge, to 100 MPa, which feels hard to a hand.
     let share =
         (libm::log10(physical.modulus_mpa / 0.03) / libm::log10(100.0 / 0.03)).clamp(0.0, 1.0);
-    200.0 + share * (asperity::defaults::STIFFNESS_N_M - 200.0)
+    200.0 + share * (asperity::model::defaults::STIFFNESS_N_M - 200.0)
 }

@@ -1,6 +1,6 @@
 //! The transients of impacts: Hertz's contact, the hand behind it, the modes of the surface.
 //!
-//! The mechanics are [`asperity::impact`]; here are the material and the level. A harder material
+//! The mechanics are [`asperity::signal::impact`]; here are the material and the level. A harder material
 //! has a shorter contact and higher modes, so its centroid is higher and its force rises faster: that
 //! also puts rate-hardness in the right order, the initial rate of force over impact speed (Lawrence
 //! et al., 2000). We know of no openly licensed recordings of taps, so none was used. The modes follow
@@ -8,7 +8,7 @@
 
 use super::Physical;
 use crate::{TAP_SAMPLES, TAPS};
-use asperity::impact::{self, Impact};
+use asperity::signal::impact::{self, Impact};
 
 /// ∫a dt per impact speed: one twenty-fifth of the momentum. The wall returns the rest.
 const IMPULSE_PER_SPEED: f64 = 0.04;

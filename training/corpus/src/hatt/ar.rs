@@ -4,7 +4,10 @@ use crate::{
     ORDER,
     generator::{self, transfer::POINTS},
 };
-use asperity::{hatt::SourceModel, lsf, spectrum::squared_magnitude};
+use asperity::{
+    signal::{lsf, spectrum::squared_magnitude},
+    sources::hatt::SourceModel,
+};
 use std::f64::consts::PI;
 
 /// Lower bound of |1 + e^{−jω}|² when it is divided out; its peak is 4.

@@ -1,7 +1,7 @@
 //! Why a folder of HaTT models cannot be used as a corpus.
 
 use crate::{BINS, SAMPLE_RATE_HZ};
-use asperity::hatt::{HattError, Problem};
+use asperity::sources::hatt::{HattError, Problem};
 use asperity_io::diagnostic::Diagnostic;
 use std::path::PathBuf;
 use thiserror::Error;

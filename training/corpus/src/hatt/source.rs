@@ -6,7 +6,7 @@ use super::{
     interpolation::OwnGrid,
 };
 use crate::SAMPLE_RATE_HZ;
-use asperity::hatt::{self, HattError, Problem};
+use asperity::sources::hatt::{self, HattError, Problem};
 use rayon::prelude::*;
 use std::{
     collections::HashMap,

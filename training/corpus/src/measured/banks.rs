@@ -4,7 +4,7 @@ use crate::{
     TAP_RATE_HZ, TAP_SAMPLES, TAPS,
     generator::{Physical, tap},
 };
-use asperity::{impact, spectrum::trace_centroid_hz};
+use asperity::signal::{impact, spectrum::trace_centroid_hz};
 
 /// A pulse counts as over where it falls below this fraction of its peak.
 const OVER: f64 = 0.1;

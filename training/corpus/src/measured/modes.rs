@@ -1,10 +1,10 @@
 //! Measured modes of struck objects, held against those of the generator's taps.
 //!
 //! Ten of the fourteen materials set
-//! the constants of [`asperity::impact`]; every third in alphabetical order was kept out of that.
+//! the constants of [`asperity::signal::impact`]; every third in alphabetical order was kept out of that.
 
 use crate::generator::Physical;
-use asperity::impact::Impact;
+use asperity::signal::impact::Impact;
 use std::collections::BTreeMap;
 
 const MODES_CSV: &str = include_str!("../../../corpora/measured/modes.csv");

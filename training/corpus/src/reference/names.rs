@@ -1,7 +1,7 @@
 //! What has a name: the table that the compiler's prompt reader looks names up in.
 
 use super::{EMBEDDED, EMBEDDED_LEXICON, schema};
-use asperity::prompt::{
+use asperity::sources::prompt::{
     phrase,
     reading::{Token, in_one_word, is_colour, is_grammar, key, normalise},
     woods,

@@ -1,5 +1,8 @@
 use super::*;
-use asperity::{attributes::Meter, quantile::rank_correlation, spectrum::trace_centroid_hz};
+use asperity::{
+    model::attributes::Meter,
+    signal::{quantile::rank_correlation, spectrum::trace_centroid_hz},
+};
 
 fn load_plain() -> (Corpus, Vec<LexiconEntry>) {
     load(&ReferenceOptions {
@@ -121,7 +124,7 @@ fn assert_stable(corpus: &Corpus) {
         for lsf in &material.prototype.lsf_rad {
             let lsf: Vec<f64> = lsf.iter().map(|&x| f64::from(x)).collect();
             assert!(
-                asperity::lsf::smallest_gap(&lsf) > 0.012,
+                asperity::signal::lsf::smallest_gap(&lsf) > 0.012,
                 "{}",
                 material.name
             );

@@ -37,7 +37,7 @@ pub use signature::Objective;
 pub use watch::{Unwatched, Watch};
 
 use crate::{attributes::Layout, captions::Captions, config::Config, statistics};
-use asperity::{inference::Backend, text::TextEncoder};
+use asperity::learned::{inference::Backend, text::TextEncoder};
 use asperity_corpus::{Corpus, reference::LexiconEntry};
 use signature::Signature;
 use std::{

@@ -1,11 +1,7 @@
 //! What is compared of a texture: spectra, levels, transients and objective attributes.
 
 use crate::attributes::{self, Layout};
-use asperity::{
-    level::nyquist_rms,
-    lsf,
-    spectrum::{ArmaModel, squared_magnitude},
-};
+use asperity::signal::{level::nyquist_rms, lsf, spectrum::{ArmaModel, squared_magnitude}};
 use asperity_corpus::{BINS, Instance, SAMPLE_RATE_HZ, TAP_RATE_HZ, TAP_SAMPLES, TAPS};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;

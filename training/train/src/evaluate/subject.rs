@@ -5,16 +5,7 @@ use super::{
     signature::{Objective, Signature},
 };
 use crate::{attributes::Layout, trained::Seen};
-use asperity::{
-    attributes,
-    inference::Backend,
-    learned::{
-        Decoded, Files, Latent, LearnedModel, ModelError, Present, Projected,
-        description::ModelDescription, friction, texture,
-    },
-    model::Provenance,
-    model::shift,
-};
+use asperity::{model::{attributes, Provenance, shift}, learned::{inference::Backend, Decoded, Files, Latent, LearnedModel, ModelError, Present, Projected, description::ModelDescription, friction, texture}};
 use asperity_corpus::{BINS, CHANNELS, Instance, ORDER, TAP_SAMPLES, TAPS};
 use rayon::prelude::*;
 use std::path::Path;

@@ -3,7 +3,7 @@
 
 use super::{EvaluateError, Watch, cache, watch::pause};
 use crate::{error::FitError, vectors::Remembered};
-use asperity::text::{Encoded, TextEncoder, TextError};
+use asperity::learned::text::{Encoded, TextEncoder, TextError};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 

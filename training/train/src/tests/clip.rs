@@ -2,12 +2,7 @@
 
 use super::{folder::exported_of, training::small};
 use crate::{Captions, Silent, fit_on, synthetic};
-use asperity::{
-    inference::Backend,
-    learned::{Files, LearnedModel},
-    prompt::{Options, PromptCompiler},
-    text::{TextEncoder as _, clip::Clip},
-};
+use asperity::{learned::{inference::Backend, Files, LearnedModel, text::{TextEncoder as _, clip::Clip}}, sources::prompt::{Options, PromptCompiler}};
 use asperity_nn::{
     Dim, ElementType, Tensor,
     build::{Attribute, GraphBuilder},

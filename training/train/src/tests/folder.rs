@@ -8,10 +8,7 @@ use crate::{
     rng::{Purpose, Stream},
     synthetic::{self, WordBag},
 };
-use asperity::{
-    inference::Backend,
-    learned::{Files, LearnedModel, description::LATENT},
-};
+use asperity::learned::{inference::Backend, Files, LearnedModel, description::LATENT};
 use asperity_corpus::Corpus;
 
 const MATERIALS: [usize; 6] = [0, 1, 2, 3, 4, 5];

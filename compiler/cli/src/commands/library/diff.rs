@@ -2,8 +2,8 @@
 
 use crate::cli::Diff;
 use asperity::{
-    edit::EditError,
     library::{Change, LoadedLibrary, diff},
+    sources::latents::EditError,
 };
 use asperity_console::Console;
 use asperity_io::diagnostic::{Failures, one};

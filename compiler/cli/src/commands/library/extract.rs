@@ -1,7 +1,10 @@
 //! `asperity extract`.
 
 use crate::cli::Extract;
-use asperity::{edit::EditError, library::renamed, textures::Textures};
+use asperity::{
+    emit::{sections::renamed, textures::Textures},
+    sources::latents::EditError,
+};
 use asperity_console::Console;
 use asperity_formats::Asset;
 use asperity_io::{

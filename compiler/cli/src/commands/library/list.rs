@@ -2,12 +2,11 @@
 
 use crate::cli::List;
 use asperity::{
-    attributes::{Attributes, Meter},
-    edit::remembered,
     edit_memory::History,
+    emit::{raise::attributes, textures::Textures},
     learned::Certainty,
-    raise::attributes,
-    textures::Textures,
+    model::attributes::{Attributes, Meter},
+    sources::latents::remembered,
 };
 use asperity_console::Console;
 use asperity_formats::Asset;

@@ -2,8 +2,8 @@
 
 use crate::cli::Rename;
 use asperity::{
+    emit::textures::{Textures, TexturesProblem},
     library::{LibraryFault, LoadedLibrary, check_name},
-    textures::{Textures, TexturesProblem},
 };
 use asperity_console::Console;
 use asperity_io::{

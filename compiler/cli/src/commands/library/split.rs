@@ -2,8 +2,9 @@
 
 use crate::cli::Split;
 use asperity::{
-    edit::EditError,
-    library::{LoadedLibrary, renamed, split},
+    emit::sections::renamed,
+    library::{LoadedLibrary, split},
+    sources::latents::EditError,
 };
 use asperity_console::Console;
 use asperity_formats::Asset;

@@ -2,7 +2,7 @@
 
 use super::{input::Input, output::Mixing};
 use crate::cli::Blend;
-use asperity::edit::LatentEditor;
+use asperity::sources::latents::LatentEditor;
 use asperity_console::Console;
 use asperity_io::diagnostic::{Failures, one};
 

@@ -2,7 +2,7 @@
 
 use super::{input::Input, output::Mixing};
 use crate::cli::Edit as Arguments;
-use asperity::edit::{Edit, EditError, LatentEditor, Sliders};
+use asperity::sources::latents::{Edit, EditError, LatentEditor, Sliders};
 use asperity_console::Console;
 use asperity_io::diagnostic::{Failures, one};
 

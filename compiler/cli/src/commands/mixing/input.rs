@@ -1,6 +1,6 @@
 //! Textures that are mixed: an asset, or one of a library as `FILE.aspl#NAME`.
 
-use asperity::textures::Textures;
+use asperity::emit::textures::Textures;
 use asperity_formats::Asset;
 use asperity_io::diagnostic::{Failures, one};
 use std::path::{Path, PathBuf};

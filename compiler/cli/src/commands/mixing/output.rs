@@ -5,10 +5,10 @@ use crate::{
     cli::Mixed,
     commands::one_texture::{Job, Wanted},
 };
-use asperity::{
-    edit::{LatentEditor, Mix, MixOptions, MixPreview},
+use asperity::sources::{
+    Tools,
+    latents::{LatentEditor, Mix, MixOptions, MixPreview},
     prompt::PromptCompiler,
-    sources::Tools,
 };
 use asperity_console::Console;
 use asperity_io::{diagnostic::Failures, output::display, shown::size};

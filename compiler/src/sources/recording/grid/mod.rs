@@ -25,11 +25,11 @@ mod simulated;
 mod vertex;
 mod whittle;
 
-use crate::passes::triangulate;
 use asperity_recording::{
     segments::{Segment, Segments},
     timeline::RATE_HZ,
 };
+use asperity_texture::model::triangulate;
 use asperity_texture::model::{GridVertex, ModelGrid, Numerator};
 use clusters::centres;
 pub use extrapolation::Slopes;

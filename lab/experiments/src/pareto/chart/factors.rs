@@ -7,7 +7,7 @@ use super::mark::{DEFAULT, UNSTABLE, mark, of_factor};
 use super::picture::{Picture, finished};
 use crate::pareto::measure::Results;
 use crate::pareto::summary::VariantSummary;
-use asperity::reduce::BUDGET_DB;
+use asperity::passes::reduce::BUDGET_DB;
 use asperity_kernels::design::Factor;
 use asperity_plot::{Canvas, Key, Marker, Panel, PlotError, Rect, ink, legend};
 

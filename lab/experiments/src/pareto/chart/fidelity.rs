@@ -4,7 +4,7 @@ use super::errors::BUDGET;
 use super::picture::{Picture, finished};
 use crate::pareto::kept::Kept;
 use crate::pareto::measure::Results;
-use asperity::reduce::BUDGET_DB;
+use asperity::passes::reduce::BUDGET_DB;
 use asperity_plot::{Axis, Canvas, Key, Marker, Panel, PlotError, Rect, Stroke, ink};
 
 const SIZE: (u32, u32) = (2200, 860);

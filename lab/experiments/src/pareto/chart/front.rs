@@ -8,7 +8,7 @@ use super::picture::{Picture, finished};
 use crate::pareto::front::on_front;
 use crate::pareto::measure::Results;
 use crate::pareto::summary::VariantSummary;
-use asperity::reduce::BUDGET_DB;
+use asperity::passes::reduce::BUDGET_DB;
 use asperity_kernels::design::{Factor, Order};
 use asperity_plot::{Canvas, Key, Panel, PlotError, Rect, Stroke, ink};
 

@@ -7,11 +7,12 @@ use crate::pareto::{
 };
 use asperity::{
     learned::edges,
-    mixture::{Field, Place},
-    model::{GridVertex, ModelGrid, VertexKind},
-    reflection,
-    spectrum::ArmaModel,
-    triangulate,
+    model::{
+        GridVertex, ModelGrid, VertexKind,
+        mixture::{Field, Place},
+        triangulate,
+    },
+    signal::{reflection, spectrum::ArmaModel},
 };
 use asperity_kernels::design::{Arithmetic, Design, Level, Shape};
 
@@ -79,7 +80,7 @@ fn predict(
         .filter(|(index, _)| *index != out)
         .map(|(_, vertex)| vertex.clone())
         .collect();
-    let (width, height) = asperity::mesh::corner(grid);
+    let (width, height) = asperity::model::mesh::corner(grid);
     let distance = |x: &GridVertex, y: &GridVertex| {
         let (dv, df) = (
             (x.speed_mm_s - y.speed_mm_s) / width,
@@ -202,7 +203,7 @@ fn mixed(grid: &ModelGrid, place: &Place, shape: Shape, level: Level) -> Option<
 /// The mixture at a vertex's position, or at the nearest point of the triangles' border, and
 /// that point in mm/s and N.
 fn located(grid: &ModelGrid, target: &GridVertex) -> (Option<Place>, (f64, f64)) {
-    let (width, height) = asperity::mesh::corner(grid);
+    let (width, height) = asperity::model::mesh::corner(grid);
     let at = |v: usize| {
         let vertex = &grid.vertices[v];
         (vertex.speed_mm_s, vertex.force_n)
@@ -262,7 +263,7 @@ fn weights_inside(corners: [(f64, f64); 3], (x, y): (f64, f64)) -> Option<[f64; 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity::builtin;
+    use asperity::sources::builtin;
 
     /// A grid whose cosines and levels are linear in speed and force.
     fn linear() -> ModelGrid {

@@ -3,11 +3,16 @@
 use super::super::noise::gaussian;
 use super::Kernel;
 use asperity::{
-    builtin, lsf,
-    mixture::{Field, Place},
-    model::{ModelGrid, Numerator},
-    reduce::order::Fits,
-    spectrum::{self, ArmaModel},
+    model::{
+        ModelGrid, Numerator,
+        mixture::{Field, Place},
+    },
+    passes::reduce::order::Fits,
+    signal::{
+        lsf,
+        spectrum::{self, ArmaModel},
+    },
+    sources::builtin,
 };
 use asperity_kernels::design::{Design, Order, Shape, Structure, variants};
 use rand_core::SeedableRng as _;

@@ -1,6 +1,9 @@
 //! All-pole filters given by coefficients, mixed as the paper writes it and run in direct form.
 
-use asperity::{lsf, model::ModelGrid, reflection};
+use asperity::{
+    model::ModelGrid,
+    signal::{lsf, reflection},
+};
 
 /// An all-pole filter in direct form. It keeps its past outputs when coefficients change.
 #[derive(Debug, Clone, Default)]

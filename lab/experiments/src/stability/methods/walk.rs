@@ -70,7 +70,7 @@ mod tests {
 
     #[test]
     fn a_walk_finds_what_lies_inside_and_not_what_lies_on_an_edge() {
-        let grid = asperity::builtin::texture().grid;
+        let grid = asperity::sources::builtin::texture().grid;
         let corners = grid.triangles[7].map(|v| &grid.vertices[v]);
         let mean = |f: fn(&asperity::model::GridVertex) -> f64, n: usize| {
             corners[..n].iter().map(|v| f(v)).sum::<f64>() / n as f64

@@ -66,7 +66,8 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
     if uri.scheme == Scheme::Touch {
         return Err(super::touch_cannot_be_driven());
     }
-    let lowered = asperity::lower::lower(&asperity::builtin::texture(), None).map_err(one)?;
+    let lowered =
+        asperity::emit::lower::lower(&asperity::sources::builtin::texture(), None).map_err(one)?;
     let bug = |error: &dyn std::fmt::Display| Plain::failure(error, "report this as a bug");
     let asset = Asset::parse(&lowered.bytes).map_err(|error| bug(&error))?;
     let mut texture = Box::new(HostTexture::new());

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use asperity::recording;
+use asperity::sources::recording;
 use asperity_console::Console;
 use asperity_io::output::display;
 use asperity_io::shown::counted;

@@ -1,6 +1,6 @@
 use super::*;
 use crate::{TAP_RATE_HZ, TAP_SAMPLES, reference};
-use asperity::spectrum::trace_centroid_hz;
+use asperity::signal::spectrum::trace_centroid_hz;
 
 fn fastest(physical: &Physical) -> Vec<f64> {
     bank(physical)[TAPS - 1].map(f64::from).into()

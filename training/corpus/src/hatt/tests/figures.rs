@@ -7,13 +7,14 @@ use crate::{
     hatt::{HattOptions, ar, bins::Bins, load, pool::Pool, source},
 };
 use asperity::{
-    hatt,
-    level::nyquist_rms,
-    lsf,
-    mixture::Field,
-    model::ModelGrid,
-    quantile::quantile,
-    spectrum::{ArmaModel, log_spectral_distance_db},
+    model::{ModelGrid, mixture::Field},
+    signal::{
+        level::nyquist_rms,
+        lsf,
+        quantile::quantile,
+        spectrum::{ArmaModel, log_spectral_distance_db},
+    },
+    sources::hatt,
 };
 use std::{
     path::{Path, PathBuf},

@@ -1,6 +1,6 @@
 use super::made_up::{Folder, MADE_UP};
 use crate::{BINS, Corpus, Instance, hatt::*};
-use asperity::{
+use asperity::signal::{
     lsf,
     spectrum::{ArmaModel, log_spectral_distance_db},
 };

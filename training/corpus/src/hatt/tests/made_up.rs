@@ -1,7 +1,7 @@
 //! A folder of made-up materials. Their names are HaTT's, so that they have captions; nothing else
 //! is.
 
-use asperity::{lsf, spectrum::squared_magnitude};
+use asperity::signal::{lsf, spectrum::squared_magnitude};
 use std::{
     f64::consts::PI,
     fmt::Write as _,

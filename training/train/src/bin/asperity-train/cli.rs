@@ -1,6 +1,6 @@
 //! What can be typed.
 
-use asperity::{inference::BackendName, text::TextEncoderChoice};
+use asperity::learned::{inference::BackendName, text::TextEncoderChoice};
 use asperity_corpus::ConstantSet;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::{num::NonZeroUsize, path::PathBuf};

@@ -6,7 +6,7 @@ use crate::{
     console::{self, Bar},
     setup,
 };
-use asperity::{inference::Backend, text::TextEncoder};
+use asperity::learned::{inference::Backend, text::TextEncoder};
 use asperity_corpus::{
     Corpus, hatt,
     reference::{self, LexiconEntry, ReferenceOptions},

@@ -5,10 +5,7 @@ use crate::{
     console::{self, is_interrupted},
     setup,
 };
-use asperity::{
-    inference::{Backend, BackendName},
-    text::TextEncoderChoice,
-};
+use asperity::learned::{inference::{Backend, BackendName}, text::TextEncoderChoice};
 use asperity_train::{
     Config,
     evaluate::{CorpusSource, Options, Part, Watch, evaluate},

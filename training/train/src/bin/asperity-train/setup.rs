@@ -1,11 +1,7 @@
 //! What both long commands need before they start.
 
 use crate::{Failure, boxed};
-use asperity::{
-    embedded,
-    inference::Backend,
-    text::{TextEncoder, TextEncoderChoice, clip::Clip},
-};
+use asperity::learned::{embedded, inference::Backend, text::{TextEncoder, TextEncoderChoice, clip::Clip}};
 use std::{num::NonZeroUsize, thread};
 
 /// The chosen text encoder on a back end.

@@ -18,7 +18,7 @@ use asperity::learned::{
     description::{Anchor, FrictionDescription},
     friction,
 };
-use asperity::quantile::rank_correlation;
+use asperity::signal::quantile::rank_correlation;
 use asperity_corpus::{BINS, Corpus, Instance, ORDER, TAP_SAMPLES, TAPS};
 use serde::{Deserialize, Serialize};
 

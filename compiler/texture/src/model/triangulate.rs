@@ -1,15 +1,8 @@
 //! Triangulates vertices that a source gives without triangles.
-//!
-//! ```
-//! use asperity::{builtin, mesh, triangulate::delaunay};
-//!
-//! let mut grid = builtin::texture().grid;
-//! grid.triangles = delaunay(&grid.vertices);
-//! assert_eq!(mesh::check(&grid), Ok(())); // they tile the rectangle
-//! ```
 
-use asperity_texture::model::GridVertex;
 use delaunator::Point;
+
+use super::GridVertex;
 
 /// The Delaunay triangles of the vertices, with both axes scaled to 0..1 so that neither unit
 /// counts for more. The same vertices give the same triangles.
