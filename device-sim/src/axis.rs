@@ -1,5 +1,5 @@
-//! One axis of a stylus: mass, viscous and Coulomb friction, and a hand's spring
-//! and damper, integrated implicitly.
+//! Single-axis stylus dynamics: mass, viscous and Coulomb friction, and the hand's spring and
+//! damper, integrated implicitly.
 //!
 //! ```text
 //! m·v̇ = F + k·(x_t − x) + b_t·(v_t − v) − b·v − f_c·sgn(v),   ẋ = v
@@ -27,7 +27,7 @@ pub struct AxisParams {
     pub coulomb_n: f64,
 }
 
-/// How a hand pulls an axis: by a spring and a damper to a moving target, and by a force.
+/// Force of a hand on an axis: a spring and a damper to a moving target, plus a feed-forward force.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Pull {
     /// Spring stiffness, N/m.

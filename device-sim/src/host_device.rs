@@ -11,22 +11,21 @@ const CYCLES: usize = 4000;
 /// Longest time that is simulated at once, s; a loop that pauses for longer loses the rest.
 const LONGEST_S: f64 = 0.1;
 
-/// How time passes for a simulated device.
+/// Time base of a simulated device.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pace {
-    /// One servo period from each reading to the next, whatever the clock says: the same seed gives
-    /// the same forces.
+    /// A fixed servo period per reading, independent of the clock: the same seed gives the same forces.
     Stepped,
-    /// As on a desk, by the monotonic clock.
+    /// Real time, by the monotonic clock.
     RealTime,
 }
 
-/// What a simulated hand does.
+/// Behaviour of a simulated hand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Hands {
-    /// It explores: taps, a press, a few strokes, a rest.
+    /// Exploration: taps, a press, a few strokes, a rest.
     Explore,
-    /// It records: taps, and strokes at all speeds and forces.
+    /// Recording: taps, and strokes at all speeds and forces.
     Record,
 }
 
@@ -43,8 +42,7 @@ pub struct SimDevice {
     description: Description,
     pace: Pace,
     tick_s: f64,
-    /// What the hand wants until the next reading; `None` before the first one and after the last
-    /// cycle.
+    /// Intent until the next reading; `None` before the first one and after the last cycle.
     intent: Option<Intent>,
     last_ns: Option<u64>,
 }
@@ -124,7 +122,7 @@ impl SimDevice {
     }
 }
 
-/// One sentence for all fields that nobody has confirmed.
+/// Lists all unconfirmed fields in a single sentence.
 fn unconfirmed(config: &DeviceConfig) -> Vec<String> {
     if config.unconfirmed.is_empty() {
         return Vec::new();

@@ -20,11 +20,11 @@ pub struct Record {
     pub true_m_s: [f64; 3],
     /// Position as measured, m.
     pub measured_m: [f64; 3],
-    /// What the servo answered.
+    /// Output of the servo.
     pub output: Output,
     /// Force that the actuators held, after limit, rounding and delay, N.
     pub device_n: [f64; 3],
-    /// What the hand wanted.
+    /// Intent of the hand.
     pub intent: Intent,
 }
 
@@ -95,7 +95,7 @@ impl<S: Servo> Session<S> {
         records
     }
 
-    /// How often the device changed a command or hit a stop.
+    /// Returns the counts of altered commands and of hits of a workspace stop.
     pub fn device_counts(&self) -> DeviceCounts {
         self.device.counts()
     }

@@ -13,9 +13,9 @@ use crate::{
     taps::Taps,
 };
 
-/// One texture, borrowed from bytes whose every claim was checked.
+/// A texture, borrowed from validated bytes.
 ///
-/// Reading through it cannot fail and allocates nothing.
+/// Accessors cannot fail and do not allocate.
 #[derive(Debug, Clone, Copy)]
 pub struct Asset<'a> {
     bytes: &'a [u8],
@@ -172,7 +172,7 @@ impl<'a> Asset<'a> {
         Latents::parse(self.tagged(header::LATENT)?).ok()
     }
 
-    /// How it was made and edited, JSON; absent after [`Asset::parse_haptic`].
+    /// Creation and editing history, JSON; absent after [`Asset::parse_haptic`].
     #[must_use]
     pub fn history(&self) -> Option<&'a str> {
         history(self.tagged(header::HISTORY)?).ok()

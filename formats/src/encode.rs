@@ -53,7 +53,7 @@ pub struct GridParts<'a> {
     pub triangles: &'a [[u8; 3]],
 }
 
-/// One distinct model.
+/// A distinct model.
 #[derive(Debug, Clone, Copy)]
 pub struct ModelParts<'a> {
     /// `ar_order` codes.

@@ -12,7 +12,7 @@ pub enum FormatError {
     /// Fewer bytes than the smallest file, or than the header says.
     #[error("{field}: {needed} bytes needed, {found} found: the file is truncated")]
     TooShort {
-        /// What did not fit.
+        /// Name of the truncated field.
         field: &'static str,
         /// Bytes needed.
         needed: u64,
@@ -22,7 +22,7 @@ pub enum FormatError {
     /// More bytes than the header says.
     #[error("{field}: {stated} bytes stated, {found} found: trailing bytes")]
     TooLong {
-        /// What was too long.
+        /// Name of the overlong field.
         field: &'static str,
         /// Bytes stated.
         stated: u64,
@@ -62,7 +62,7 @@ pub enum FormatError {
     Section {
         /// Four-byte tag.
         tag: [u8; 4],
-        /// What is wrong with it.
+        /// Description of the defect.
         reason: &'static str,
     },
     /// A value is outside its range, or breaks a rule.
@@ -70,7 +70,7 @@ pub enum FormatError {
     Invalid {
         /// Section and field, e.g. `grid.vertex.speed_mm_s`.
         field: &'static str,
-        /// Which one, 0 where there is but one.
+        /// Index of the element; 0 for a scalar field.
         index: u32,
         /// The value found.
         value: f64,
@@ -82,9 +82,9 @@ pub enum FormatError {
     Text {
         /// Section and field.
         field: &'static str,
-        /// Which one.
+        /// Index of the element.
         index: u32,
-        /// What is wrong with it.
+        /// Description of the defect.
         reason: &'static str,
     },
     /// Metadata that postcard cannot read.

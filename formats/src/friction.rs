@@ -87,7 +87,7 @@ impl<'a> Friction<'a> {
         self.mu
     }
 
-    /// How μ depends on speed, where it does.
+    /// Returns the dependence of μ on speed, if any.
     #[must_use]
     pub const fn law(&self) -> Option<FrictionLaw<'a>> {
         self.law

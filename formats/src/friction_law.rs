@@ -13,8 +13,8 @@ const PER_ONE: f32 = 8192.0;
 /// Bytes of a point.
 const POINT_LEN: usize = 4;
 
-/// How μ depends on speed: straight lines between points, constant below the first and above the
-/// last one. Friction at a speed is μ times the factor there.
+/// Dependence of μ on speed: piecewise linear between points, constant below the first and above
+/// the last. Friction at a speed is μ times the interpolated factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionLaw<'a> {
     points: &'a [u8],

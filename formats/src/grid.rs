@@ -20,7 +20,7 @@ pub enum Numerator {
     Lsf,
 }
 
-/// Whether a vertex was measured or closes the grid at its border.
+/// Kind of a vertex: a measured operating point, or one that closes the grid at its border.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum VertexKind {
     /// A measured or generated operating point.
@@ -29,7 +29,7 @@ pub enum VertexKind {
     Edge,
 }
 
-/// One vertex of the grid.
+/// A vertex of the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Vertex {
     /// Tangential speed, mm/s.
@@ -38,13 +38,13 @@ pub struct Vertex {
     pub force_n: f32,
     /// Standard deviation of the excitation before numerator and gain, m/s².
     pub sigma_m_s2: f32,
-    /// Which model of the table; edge models may share an interior one.
+    /// Index into the model table; edge vertices may share an interior model.
     pub model: u8,
     /// Interior or edge.
     pub kind: VertexKind,
 }
 
-/// One entry of the model table.
+/// An entry of the model table.
 #[derive(Debug, Clone, Copy)]
 pub struct Model<'a> {
     lsf: &'a [u8],
@@ -356,7 +356,7 @@ impl<'a> Grid<'a> {
             .map(move |record| grid.model_of(record))
     }
 
-    /// One model of the table, without a look at the others.
+    /// Returns a single model of the table without reading the others.
     #[inline]
     #[must_use]
     pub fn model(&self, index: usize) -> Option<Model<'a>> {

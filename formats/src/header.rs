@@ -36,7 +36,7 @@ pub(crate) const HAPTIC: [([u8; 4], &str); 5] = [
     (COUPLING, "surface"),
 ];
 
-/// One section of an asset.
+/// Location and checksum of a section in an asset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SectionInfo {
     /// Four-byte tag; upper case first: haptic.
@@ -50,7 +50,7 @@ pub struct SectionInfo {
 }
 
 impl SectionInfo {
-    /// Whether a runtime needs the section.
+    /// Returns true if a runtime needs the section.
     #[must_use]
     pub const fn is_haptic(&self) -> bool {
         self.tag[0].is_ascii_uppercase()

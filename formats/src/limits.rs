@@ -1,4 +1,4 @@
-//! What a valid asset can hold at most; readers size their tables by these.
+//! Upper bounds of a valid asset; readers size their tables by these.
 
 /// Vertices of the speed–force grid.
 pub const MAX_VERTICES: usize = 64;

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// Where a texture comes from. The runtime never reads it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Provenance<'a> {
-    /// What made it.
+    /// Tool, version and command that generated the texture.
     pub generator: &'a str,
     /// File or corpus entry it was made from, without a folder.
     pub source: &'a str,
@@ -18,11 +18,11 @@ pub struct Provenance<'a> {
     pub seed: u64,
     /// Fidelity asked for: `full`, `auto` or an order.
     pub fidelity: &'a str,
-    /// Whether the taps were synthesised rather than recorded.
+    /// True if the taps are synthetic rather than recorded.
     pub taps_synthetic: bool,
     /// RMS spectral error of LSF quantisation over the grid, dB.
     pub lsf_error_db: f32,
-    /// What a reader should know: synthetic parts, unconfirmed defaults.
+    /// Caveats: synthetic parts, unconfirmed defaults.
     pub notes: &'a str,
 }
 

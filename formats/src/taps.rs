@@ -20,7 +20,7 @@ pub struct Taps<'a> {
     traces: &'a [u8],
 }
 
-/// One trace: the acceleration transient of one impact.
+/// A trace: the acceleration transient of a single impact.
 #[derive(Debug, Clone, Copy)]
 pub struct Trace<'a> {
     /// Impact speed, m/s.
@@ -164,7 +164,7 @@ fn first_below_scale(codes: &[u8]) -> Option<usize> {
     }
 }
 
-/// Whether one of packed codes is −2048: four at a time, without a branch for each.
+/// Returns true if any of the packed codes is −2048. Branch-free, four codes at a time.
 fn any_below_scale(codes: &[u8]) -> bool {
     const ONES: u64 = 0x001_001_001_001;
     const SIGNS: u64 = 0x800_800_800_800;

@@ -1,4 +1,4 @@
-//! One texture of a library is read without reading the others.
+//! Libraries: random access to a texture without reading the others.
 
 use crate::common;
 use crate::common::{crc32, full, put, small};

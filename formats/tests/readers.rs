@@ -1,4 +1,4 @@
-//! What a reader says of an asset by index, in blocks and in errors is what lies in its bytes.
+//! Access by index and in blocks, and error messages, agree with the bytes of an asset.
 
 use crate::common::{falling, full, small, span};
 use asperity_formats::{

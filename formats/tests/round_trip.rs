@@ -159,7 +159,7 @@ prop_compose! {
     }
 }
 
-/// What the crate reads, in the types of the plain reader.
+/// An asset as the crate reads it, in the types of the plain reader.
 fn as_plain(bytes: &[u8]) -> spec_reader::Plain {
     let asset = Asset::parse(bytes).expect("a valid asset");
     let (grid, taps, surface) = (asset.grid(), asset.taps(), asset.coupling());

@@ -1,5 +1,5 @@
-//! What measuring costs a tick: reading the clock at the end of three more stages, and putting a
-//! record into the queue, from which another thread takes it. The loop itself reads the clock once.
+//! Overhead of measuring per tick: clock reads at the end of three more stages, and a push into the
+//! record queue, which another thread drains. The loop itself reads the clock once.
 //!
 //! `cargo bench -p asperity-host` prints ns a tick; `-- --test` checks that it runs.
 

@@ -21,7 +21,7 @@ pub trait FaultKind<const N: usize>: Copy + PartialEq + 'static {
     fn name(self) -> &'static str;
 }
 
-/// How often a fault starts and how long it lasts.
+/// Start probability and duration of a fault.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rate {
     /// Probability that it starts in a period without a fault, 0..=1.
@@ -33,7 +33,7 @@ pub struct Rate {
 /// The rate of every kind; the default has no faults.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FaultPlan<K, const N: usize> {
-    /// One rate for each kind, in the order of [`FaultKind::ALL`].
+    /// Rate per kind, in the order of [`FaultKind::ALL`].
     pub rates: [Rate; N],
     of: PhantomData<K>,
 }
@@ -147,7 +147,7 @@ impl<const N: usize> FaultCounts<N> {
 pub struct FaultSchedule<K, const N: usize> {
     plan: FaultPlan<K, N>,
     rng: Xoshiro256PlusPlus,
-    /// What runs, and for how many periods more.
+    /// Active fault, and the periods that remain of it.
     running: Option<(K, u32)>,
     counts: FaultCounts<N>,
 }
@@ -186,13 +186,13 @@ impl<K: FaultKind<N>, const N: usize> FaultSchedule<K, N> {
         self.running = None;
     }
 
-    /// What goes on running after this period.
+    /// Returns the fault that remains active after this period.
     #[must_use]
     pub fn running(&self) -> Option<K> {
         self.running.map(|(kind, _)| kind)
     }
 
-    /// In how many periods each kind ran.
+    /// Returns the number of periods with each kind.
     #[must_use]
     pub fn counts(&self) -> FaultCounts<N> {
         self.counts

@@ -1,8 +1,9 @@
-//! What a servo loop needs on a computer with an operating system: devices behind one trait, a thread of its own,
-//! recordings, and a measure of its punctuality.
+//! Servo loop support for a computer with an operating system: devices behind one trait, a thread
+//! of its own, recordings, and a measure of its punctuality.
 //!
-//! Once a period the loop reads a device, renders a texture with [`asperity_runtime`] and writes the force. It is
-//! generic over device, renderer, clock and observer, so that it also runs without a device and in virtual time:
+//! Once a period the loop reads a device, renders a texture with [`asperity_runtime`] and writes
+//! the force. It is generic over device, renderer, clock and observer, so that it also runs without
+//! a device and in virtual time:
 //!
 //! ```
 //! use asperity_formats::Asset;
@@ -37,17 +38,17 @@
 //!
 //! [`servo`] is the loop, and [`servo::Servo`] runs it on a thread with the privileges that the system grants.
 //! [`device::Device`] is the trait that every device implements; [`device::open()`] opens one by its name.
-//! `docs/servo.md` and `docs/faults.md` in the repository describe how the loop behaves, `docs/devices.md` which
-//! devices there are.
+//! `docs/servo.md` and `docs/faults.md` in the repository describe the behaviour of the loop, `docs/devices.md` the
+//! devices.
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`device`] | what the loop talks to, one trait for every device |
+//! | [`device`] | devices behind one trait |
 //! | [`servo`] | the loop, on a thread of its own |
-//! | [`latency`] | how punctual it was |
+//! | [`latency`] | timing of the loop |
 //! | [`session_log`] | sessions in files that can be rendered again |
-//! | [`profile`] | how a device answers a force |
-//! | [`fault_plan`] | when injected faults begin |
+//! | [`profile`] | response of a device to a force |
+//! | [`fault_plan`] | schedule of injected faults |
 
 pub mod device;
 pub mod fault_plan;

@@ -11,7 +11,7 @@ use std::io::{Read as _, Write as _};
 const COMPRESSED: u32 = 0x1c84_9304 | 0x10;
 const PLAIN: u32 = 0x1c84_9303 | 0x10;
 
-/// What a histogram of the log holds.
+/// A decoded histogram of the log.
 struct Decoded {
     digits: u32,
     /// Value (the lowest of its cell) and count.

@@ -1,4 +1,4 @@
-//! What is measured is what was: injected delays, omitted ticks, files, comparisons.
+//! Measured times match the injected ones: delays, omitted ticks, files, comparisons.
 
 use crate::support::{Act, Scripted, texture};
 use asperity_host::latency::{
@@ -12,7 +12,7 @@ use asperity_runtime::{Config, Counters, Output, Sample, State};
 use hdrhistogram::Histogram;
 use std::sync::atomic::AtomicBool;
 
-/// What each stage takes, ns.
+/// Duration of each stage, ns.
 const WAKE_NS: u64 = 5_000;
 const READ_NS: u64 = 20_000;
 const COMPUTE_NS: u64 = 1_000;
@@ -114,7 +114,7 @@ impl asperity_host::servo::Clock for Punctual {
     }
 }
 
-/// How many values are above a bound, ns.
+/// Counts the values above a bound, ns.
 fn above(histogram: &Histogram<u64>, bound_ns: u64) -> u64 {
     let counts = histogram.iter_recorded();
     let counts = counts.filter(|step| step.value_iterated_to() > bound_ns);

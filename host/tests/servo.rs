@@ -146,7 +146,7 @@ fn forces_that_do_not_arrive_are_a_fault_as_well() {
     assert_within_limits(&run);
 }
 
-/// What the loop checks its rate against is the configuration of whatever renders.
+/// The loop checks its rate against the configuration of its renderer, of any type.
 #[test]
 fn a_loop_has_the_configuration_of_its_renderer() {
     let (mut playing, renderer) = texture(4000.0);

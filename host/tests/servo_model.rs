@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 const PERIOD_NS: u64 = 1_000_000;
 /// A step of the slew limit a period, N.
 const STEP_N: f32 = 0.5;
-/// What happens to a loop; times count calls.
+/// Inputs and faults of a loop; times count calls.
 #[derive(Debug)]
 struct Script {
     overrun: Overrun,
@@ -140,7 +140,7 @@ fn steps(top: i32) -> Steps {
 /// sample, and the force that the device holds after it, in steps.
 type Tick = (u64, u64, [u64; 2], u32, i32);
 
-/// What a loop must do, and what it must say of itself.
+/// Reference model of a loop and its report.
 struct Model<'s> {
     script: &'s Script,
     now_ns: u64,
@@ -187,7 +187,8 @@ impl Model<'_> {
         self.report.ended_without_force = ended == Some(true) || self.write(0) && self.held == 0;
     }
 
-    /// One tick: whether the rendered force is zero, whether a force arrived, and the periods missed before it.
+    /// Runs a tick; returns whether the rendered force is zero, whether a force arrived, and the
+    /// periods missed before it.
     fn tick(&mut self, is_ending: bool) -> (bool, bool, u64) {
         let due_ns = (self.period + 1) * PERIOD_NS;
         self.now_ns = self.now_ns.max(due_ns);

@@ -22,7 +22,7 @@ struct OnDesk<D> {
     readings: u64,
     homing_left: u32,
     recoveries: u32,
-    /// What the loop commanded.
+    /// Forces commanded by the loop.
     commanded: Vec<[f32; 3]>,
 }
 
@@ -79,12 +79,12 @@ impl<D: Device> Device for OnDesk<D> {
     }
 }
 
-/// What a session left behind.
+/// Results of a session.
 struct Session {
     report: Report,
     kept: Kept,
     commanded: Vec<[f32; 3]>,
-    /// What reached the motors.
+    /// Forces that reached the motors.
     taken: Vec<[f32; 3]>,
     recoveries: u32,
 }

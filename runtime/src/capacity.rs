@@ -1,4 +1,4 @@
-//! How many vertices, triangles, lags and tap samples a texture slot has room for.
+//! Capacities of a texture slot: vertices, triangles, filter orders and tap samples.
 
 use crate::arithmetic::Zero;
 use core::fmt::Debug;
@@ -18,15 +18,15 @@ pub trait Capacity: sealed::Sealed + Copy + Debug + Default + PartialEq + 'stati
     /// Tap samples at the servo rate, all traces together.
     const TAP_SAMPLES: usize;
 
-    /// One element a vertex.
+    /// Array with an element per vertex.
     type Vertices<X: Zero>: Array<X>;
-    /// One element a triangle.
+    /// Array with an element per triangle.
     type Triangles<X: Zero>: Array<X>;
-    /// One element an order of A(z).
+    /// Array with an element per lag of A(z).
     type ArOrder<X: Zero>: Array<X>;
-    /// One element an order of B(z).
+    /// Array with an element per lag of B(z).
     type MaOrder<X: Zero>: Array<X>;
-    /// One element a tap sample.
+    /// Array with an element per tap sample.
     type TapSamples<X: Zero>: Array<X>;
 }
 

@@ -1,6 +1,6 @@
-//! What happened in a tick, and how often since the state was made.
+//! Flags of a tick, and counters of them since the state was created.
 
-/// What happened in a tick, as bits.
+/// Events of a tick, as a bit set.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
 pub struct Flags(u32);
 
@@ -37,7 +37,7 @@ impl Flags {
     pub(crate) const NONE: Self = Self(0);
     /// The force is let through in part, or not at all.
     pub(crate) const LOWERED: Self = Self::SAFE_STATE.union(Self::RAMPING);
-    /// What [`Counters`] count.
+    /// Flags that [`Counters`] count.
     const COUNTED: Self = Self::RARE.union(Self::PEAK_LIMITED);
     /// The counted flags that seldom occur.
     const RARE: Self = Self::BAD_SAMPLE
@@ -65,7 +65,7 @@ impl Flags {
         self.0 as u16
     }
 
-    /// Whether every bit of `other` is set.
+    /// Returns true if every bit of `other` is set.
     #[must_use]
     pub const fn contains(self, other: Self) -> bool {
         self.0 & other.0 == other.0
@@ -95,7 +95,7 @@ impl Flags {
         Self(self.0 & other.0)
     }
 
-    /// Whether any bit of `other` is set.
+    /// Returns true if any bit of `other` is set.
     #[inline(always)]
     pub(crate) const fn intersects(self, other: Self) -> bool {
         self.0 & other.0 != 0

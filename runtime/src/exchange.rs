@@ -173,7 +173,7 @@ pub struct Player<'q, 'a, S: Capacity = HostCapacities, A: RenderArithmetic = Fl
     returned: Producer<'q, Slot<'a, S, A>>,
     state: State<A>,
     crossing: TextureChange<A>,
-    /// Whether a tap played in the last tick.
+    /// True if a tap played in the last tick.
     tapping: bool,
 }
 
@@ -222,8 +222,8 @@ impl<'q, 'a, S: Capacity, A: RenderArithmetic> Player<'q, 'a, S, A> {
 }
 
 impl<A: RenderArithmetic> Renderer<A> {
-    /// One servo period on what a [`Player`] plays: it looks for another texture, then does
-    /// [`Renderer::tick`]. It cannot fail.
+    /// Renders one servo period of a [`Player`]: polls for another texture, then does
+    /// [`Renderer::tick`]. Infallible.
     pub fn tick_player<S: Capacity>(
         &self,
         player: &mut Player<'_, '_, S, A>,

@@ -66,7 +66,7 @@ impl F3 {
 }
 
 impl F4 {
-    /// Whether registers hold four numbers; elsewhere long work costs less lane by lane.
+    /// True if four lanes fit a register; without one, long work is cheaper lane by lane.
     pub(crate) const IN_REGISTERS: bool = cfg!(any(
         target_feature = "sse2",
         target_feature = "simd128",
@@ -135,7 +135,7 @@ impl F4 {
         ab + cd
     }
 
-    /// Whether none of the four is beyond ±`limit` or NaN.
+    /// Returns true if all four lanes are within ±`limit`; false for NaN.
     #[inline(always)]
     pub(crate) fn is_within(self, limit: f32) -> bool {
         // The bits of positive floats are in the order of the floats, and the bits of a NaN are
@@ -148,7 +148,7 @@ impl F4 {
         self.to_array().into_iter().all(within)
     }
 
-    /// Whether one of the four is `least` or more; nothing is NaN.
+    /// Returns true if any of the four lanes is `least` or more; none may be NaN.
     #[inline(always)]
     pub(crate) fn reaches(self, least: f32) -> bool {
         f32x4::splat(least).cmp_le(self.0).any()

@@ -13,11 +13,11 @@ pub enum LoadError {
     /// More of something than the slot has room for.
     #[error("{field}: the texture has {found}, the slot has room for {capacity}")]
     Capacity {
-        /// Which capacity.
+        /// Name of the capacity.
         field: &'static str,
-        /// What the texture needs.
+        /// Required by the texture.
         found: usize,
-        /// What the slot has.
+        /// Capacity of the slot.
         capacity: usize,
     },
     /// The servo rate is no whole multiple of the models' rate, or more than 20 times it.

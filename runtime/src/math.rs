@@ -6,8 +6,8 @@
 
 use crate::lanes::F4;
 
-/// Whether the processor rounds to nearest, as all bits of this crate assume. A program can change
-/// that for a thread; loading, configuring and a servo loop refuse it.
+/// Returns true if the processor rounds to nearest, as bit-exact results of this crate require. A
+/// program can change the mode for a thread; loading, configuring and a servo loop refuse that.
 #[must_use]
 pub fn rounds_to_nearest() -> bool {
     // Hidden, so that the compiler does not add up what it takes to be rounded to nearest.

@@ -15,22 +15,22 @@ pub trait Checked: Arithmetic {
     /// The largest max |A(e^jω)| of a model.
     const LARGEST_MAGNITUDE: f32;
 
-    /// Whether a configuration lies in the range.
+    /// Checks that a configuration lies in the range.
     ///
     /// # Errors
-    /// The first field that does not.
+    /// The first field out of range.
     fn check_config(config: &Config) -> Result<(), ConfigError>;
 
-    /// Whether a solid lies in the range.
+    /// Checks that a solid lies in the range.
     ///
     /// # Errors
-    /// The first field that does not.
+    /// The first field out of range.
     fn check_solid(solid: &Solid) -> Result<(), ConfigError>;
 
-    /// Whether a texture lies in the range.
+    /// Checks that a texture lies in the range.
     ///
     /// # Errors
-    /// [`LoadError::Range`] with the first field that does not.
+    /// [`LoadError::Range`] with the first field out of range.
     fn check_asset(asset: &Asset<'_>) -> Result<(), LoadError>;
 }
 

@@ -1,4 +1,4 @@
-//! What goes into a tick, and what comes out.
+//! Input and output of a tick.
 
 use crate::{
     arithmetic::{Arithmetic, Float, Scalar as _},
@@ -9,7 +9,7 @@ use crate::{
     },
 };
 
-/// What the device says in one servo period.
+/// Device sample of one servo period.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample<A: Arithmetic = Float> {
     /// Stylus position in the world frame, m. Anything not finite, or beyond the
@@ -54,7 +54,7 @@ impl<A: Arithmetic> Sample<A> {
     };
 }
 
-/// What a tick gives.
+/// Output of a tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Output<A: Arithmetic = Float> {
     /// Force on the hand in the world frame, N; finite, within peak and slew.
@@ -71,6 +71,6 @@ pub struct Output<A: Arithmetic = Float> {
     pub tap_n: Raw<A, Newton>,
     /// Magnitude of the friction force, N.
     pub friction_n: Raw<A, Newton>,
-    /// What happened.
+    /// Events of the tick.
     pub flags: Flags,
 }

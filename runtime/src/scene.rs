@@ -28,8 +28,8 @@ use core::mem::MaybeUninit;
 use heapless::Vec;
 use thiserror::Error;
 
-/// How much deeper another surface must be to take over a contact, and how far outside its region a
-/// surface keeps one, m: two counts of a Touch.
+/// Hysteresis of the contact, m: extra depth at which another surface takes over, and the margin
+/// outside its region in which a surface keeps the contact. Two counts of a Touch.
 pub const HYSTERESIS_M: f32 = 0.12e-3;
 
 /// The index that stands for no surface.
@@ -107,11 +107,11 @@ pub enum SceneError {
     /// More of something than there is room for.
     #[error("{field}: the scene has {found}, there is room for {capacity}")]
     Capacity {
-        /// Which capacity.
+        /// Name of the capacity.
         field: &'static str,
-        /// What the scene needs.
+        /// Required by the scene.
         found: usize,
-        /// What there is room for.
+        /// Capacity available.
         capacity: usize,
     },
     /// A surface lies out of the range of the arithmetic.
@@ -345,8 +345,8 @@ impl<A: RenderArithmetic> SceneState<A> {
 }
 
 impl<A: RenderArithmetic> Renderer<A> {
-    /// One servo period in a scene: [`Renderer::tick`] on the surface that is touched, in place of
-    /// the one in the configuration. It cannot fail.
+    /// Renders one servo period in a scene: [`Renderer::tick`] on the touched surface instead of
+    /// the configured one. Infallible.
     pub fn tick_scene<const N: usize, S: Capacity>(
         &self,
         scene: &Scene<'_, N, S, A>,

@@ -47,9 +47,9 @@ pub(crate) struct TextureChange<A: RenderArithmetic> {
     heard: Quantity<A, VibrationAcceleration>,
     /// The fading remainder of the previous vibration, m/s².
     fading: Quantity<A, VibrationAcceleration>,
-    /// Whether the vibration at work still belongs to the previous texture.
+    /// True while the vibration at work belongs to the previous texture.
     changing: bool,
-    /// Whether the last tick was in contact.
+    /// True if the last tick was in contact.
     pub(crate) touching: bool,
 }
 
@@ -66,8 +66,7 @@ impl<A: RenderArithmetic> TextureChange<A> {
         touching: false,
     };
 
-    /// Whether the new texture's first model is still in the making, or the old vibration still
-    /// fades.
+    /// Returns true while the new texture's first model is being computed or the old vibration fades.
     #[inline]
     pub(crate) fn is_under_way(&self) -> bool {
         self.changing | (self.fading != Quantity::ZERO)

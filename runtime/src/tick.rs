@@ -1,17 +1,17 @@
-//! One servo period: device sample in, limited force out.
+//! Servo period: device sample in, limited force out.
 //!
 //! ```text
 //! F = F_n n̂ − F_t t̂ + F_vib t̂
 //! ```
 //!
-//! with F_n = kδ − bḋ + m_eff·a_tap, F_t ≤ μ(v)·kδ and F_vib = g_vib·F_max·y\[n\]: the paper's force
-//! equation, whose wall also has damping and whose friction has a bristle. A tick is the sum of
-//! the stages in this order; each is a file in [`stage`](crate::stage).
+//! with F_n = kδ − bḋ + m_eff·a_tap, F_t ≤ μ(v)·kδ and F_vib = g_vib·F_max·y\[n\]: the paper's
+//! force equation, with damping added to the wall and a bristle to the friction. A tick sums the
+//! stages in this order; each is a file in [`stage`](crate::stage).
 //!
 //! The tap, a part of F_n, comes after friction, and each flag is raised where it arises: both
-//! leave fewer values to keep. The model of the vibration is made around the stages, not between
-//! them: `Vibration::prepare` begins a tick and `Vibration::query` ends it, because few other
-//! values have to be kept there (`update/`).
+//! reduce the live values. The model of the vibration is computed around the stages, not between
+//! them: `Vibration::prepare` begins a tick and `Vibration::query` ends it, where few other values
+//! are live (`update/`).
 
 use crate::{
     capacity::Capacity,
@@ -30,7 +30,7 @@ use crate::{
     texture::Texture,
 };
 
-/// What is touched, apart from the sound of its texture.
+/// Touched surface, without the vibration of its texture.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Touched<'a, A: RenderArithmetic> {
     pub(crate) field: &'a DistanceField<A>,
@@ -40,8 +40,8 @@ pub(crate) struct Touched<'a, A: RenderArithmetic> {
 }
 
 impl<A: RenderArithmetic> Renderer<A> {
-    /// One servo period. It cannot fail: every sample gives a finite force within the limits. Its
-    /// work varies with the sample by a few percent.
+    /// Renders one servo period. Infallible: every sample yields a finite force within the limits.
+    /// Its execution time varies with the sample by a few percent.
     pub fn tick<S: Capacity>(
         &self,
         texture: &Texture<S, A>,

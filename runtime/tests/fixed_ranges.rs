@@ -1,4 +1,4 @@
-//! What fixed point can hold of a configuration and of a texture, and how it names what it cannot.
+//! Ranges of configurations and textures in fixed point, and the errors beyond them.
 
 use crate::config_ranges::{ball, cuboid, on, plane, refusal, with};
 use asperity_formats::Asset;

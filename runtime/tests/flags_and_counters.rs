@@ -105,7 +105,7 @@ fn counters_count_bad_samples_missed_periods_and_faults() {
     check::<Fixed>();
 }
 
-/// What a caller sees and what is counted agree.
+/// Flags in the output and counters agree.
 #[test]
 fn counters_agree_with_the_flags_of_the_ticks() {
     fn check<A: RenderArithmetic>() {

@@ -11,7 +11,7 @@ use proptest::prelude::*;
 
 /// Servo period, s.
 const TICK_S: f64 = 1e-3;
-/// One count of position, m.
+/// Position resolution, m.
 const COUNT_M: f64 = 0.055e-3;
 
 /// Friction along one axis.

@@ -141,8 +141,8 @@ fn rendered<A: RenderArithmetic>(
     filter.a[..order].to_vec()
 }
 
-/// What loads mixes cosines and is stable at every query, in both arithmetics; what is refused has a range, or in fixed
-/// point a magnitude, beyond its bound.
+/// A texture that loads mixes cosines and is stable at every query, in both arithmetics; a refused
+/// one exceeds the bound of the range or, in fixed point, of the magnitude.
 #[test]
 fn whatever_loads_mixes_cosines_within_a_triangle_and_stays_stable() {
     let textures = sized("textures", 3000, 20_000);
@@ -202,8 +202,8 @@ fn whatever_loads_mixes_cosines_within_a_triangle_and_stays_stable() {
     assert!(10 * loaded > 3 * textures && 10 * just > textures && 10 * refused > textures);
 }
 
-/// What makes a look at the models enough: in a mixture min |A| is no smaller than the smallest of its corners, and
-/// max |A| at most half more than the largest of theirs.
+/// Justifies checking the models alone: in a mixture min |A| is no smaller than the smallest of its
+/// corners, and max |A| at most half more than the largest of theirs.
 #[test]
 fn no_mixture_comes_nearer_to_zero_than_its_corners() {
     let triangles = sized("triangles", 3000, 100_000);

@@ -135,7 +135,7 @@ fn the_servo_loop_runs_at_one_to_twenty_times_the_rate_of_the_models() {
     }
 }
 
-/// What a slot answers.
+/// Observable content of a slot.
 fn face<S: Capacity>(slot: &Texture<S>) -> (f32, u8, u8, Coupling, f32, usize, Vec<f32>) {
     let filter = slot.filter_at(100.0, 1.0);
     let mut numbers = vec![filter.level_m_s2, slot.mu_at(50.0)];

@@ -1,5 +1,5 @@
-//! What the runtime promises, by itself and against the f64 oracle of `asperity-tests`: one binary, so that it is linked
-//! once. A new file needs its line here; `.ci/check-tests` fails without it.
+//! Tests of the runtime, by law and against the f64 oracle of `asperity-tests`: a single binary, so
+//! that it is linked once. A new file needs its line here; `.ci/check-tests` fails without it.
 
 #![allow(
     clippy::disallowed_methods,

@@ -87,7 +87,7 @@ fn walk(draw: &mut Draw, ticks: usize) -> Vec<Place> {
     places
 }
 
-/// What a scene must do.
+/// Reference model of a scene.
 struct Model<'p> {
     plates: &'p [Plate],
     at: Option<usize>,
@@ -152,7 +152,8 @@ impl Model<'_> {
         (self.at.filter(|_| distance < 0.0), taps)
     }
 
-    /// Whether the least-squares slope of eight heights, one a millisecond, is above 10 mm/s downwards.
+    /// Returns true if the least-squares slope of eight heights, one a millisecond, is above 10
+    /// mm/s downwards; `None` for fewer heights or a slope too close to call.
     fn is_fast(&self) -> Option<bool> {
         if self.heights.len() < 8 {
             return None;
@@ -248,7 +249,8 @@ fn a_scene_touches_and_taps_what_its_model_says() {
     }
 }
 
-/// What is left of a loud texture falls by a quarter a tick, however many silent ones are crossed meanwhile.
+/// The residue of a loud texture falls by a quarter per tick, however many silent ones are crossed
+/// meanwhile.
 #[test]
 fn a_vibration_that_has_ended_fades_at_its_own_pace_over_every_border() {
     const ALONE: usize = 300;

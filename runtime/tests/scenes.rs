@@ -81,7 +81,7 @@ pub(crate) fn on_library<A: RenderArithmetic, R>(
     play(&scene, &Renderer::prepare(&config).unwrap())
 }
 
-/// What is touched after a sample at each position in turn, by one stylus.
+/// Returns the touched surface after a sample at each position in turn, for a single stylus.
 fn touched<A: RenderArithmetic>(
     surfaces: &[SceneSurface],
     positions: &[[f32; 3]],

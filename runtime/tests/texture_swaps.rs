@@ -1,4 +1,5 @@
-//! One state on other textures and other renderers, without a scene or an exchange; and models that are slower than the loop.
+//! Shared state across textures and renderers, without a scene or an exchange; and models slower
+//! than the loop.
 
 use asperity_formats::Asset;
 use asperity_runtime::{

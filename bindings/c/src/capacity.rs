@@ -1,4 +1,4 @@
-//! How large a texture slot is, and which one a texture needs.
+//! Capacities of texture slots, and the choice of one for a texture.
 
 use crate::{
     AsperityError, AsperityStatus,

@@ -87,8 +87,8 @@ pub struct AsperityConfig {
 }
 
 impl AsperityConfig {
-    /// What stands for the fields that a program of an older header leaves out. It has every field
-    /// of the first version.
+    /// Defaults of the fields that a program of an older header leaves out. The first version has
+    /// all of them.
     const OF_LATER_VERSIONS: Self = Self {
         struct_size: size_of::<Self>() as u32,
         servo_rate_hz: 0.0,

@@ -3,7 +3,7 @@
 use crate::sized::sized;
 use asperity_formats::Coupling;
 
-/// How a texture couples to the hand. Set `struct_size`, or begin with `ASPERITY_COUPLING_INIT`.
+/// Coupling of a texture to the hand. Set `struct_size`, or begin with `ASPERITY_COUPLING_INIT`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AsperityCoupling {

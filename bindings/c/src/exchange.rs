@@ -43,21 +43,21 @@ pub struct AsperityPlayer {
     tag: Tag,
 }
 
-/// What an `AsperityPreparer` leads to.
+/// Object behind an `AsperityPreparer` pointer.
 #[repr(C, align(64))]
 struct PreparerOf<S: Class, A: Numbered> {
     tag: Tag,
-    /// Where it was initialised.
+    /// Address at which it was initialised.
     home: usize,
     servo_rate_hz: f32,
     preparer: Preparer<'static, 'static, S, A>,
 }
 
-/// What an `AsperityPlayer` leads to.
+/// Object behind an `AsperityPlayer` pointer.
 #[repr(C, align(64))]
 struct PlayerOf<S: Class, A: Numbered> {
     tag: Tag,
-    /// Where it was initialised.
+    /// Address at which it was initialised.
     home: usize,
     servo_rate_hz: f32,
     player: Player<'static, 'static, S, A>,
@@ -274,8 +274,8 @@ pub unsafe extern "C" fn asperity_preparer_load_name(
     }
 }
 
-/// One servo period on what a player plays: it takes the next texture, if one was sent and may
-/// begin, and then does what `asperity_tick` does.
+/// Renders one servo period of a player: takes the next texture, if one was sent and may begin, and
+/// then does what `asperity_tick` does.
 ///
 /// # Safety
 /// As `asperity_tick`; nobody else uses `player` during the call.

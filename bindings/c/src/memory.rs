@@ -6,7 +6,7 @@ use core::{ffi::c_void, mem::MaybeUninit};
 /// Alignment of the memory of every object, bytes.
 pub const ASPERITY_ALIGNMENT: usize = 64;
 
-/// What an object begins with: which kind it is, in which arithmetic, of which capacity.
+/// Tag at the start of an object: its kind, arithmetic and capacity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(transparent)]
 pub(crate) struct Tag(u32);
@@ -42,8 +42,8 @@ pub(crate) unsafe trait Object: Sized {
     /// Different for every type.
     const TAG: Tag;
 
-    /// Whether it lies where it was initialised. What holds pointers into its own memory is none of
-    /// ours where it was copied to.
+    /// Returns true if it lies where it was initialised. An object with pointers into its own
+    /// memory is invalid where it was copied to.
     fn is_in_place(&self) -> bool {
         true
     }

@@ -27,7 +27,7 @@ pub struct AsperityRecorder {
     tag: Tag,
 }
 
-/// One tick: what went in and what came out.
+/// Input and output of a tick.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AsperityRecord {
@@ -68,7 +68,7 @@ const _: () = {
     assert!(size_of::<Ring>() <= ASPERITY_RECORDER_SIZE);
 };
 
-/// What an `AsperityRecorder` leads to; its records lie behind it.
+/// Object behind an `AsperityRecorder` pointer; its records follow it in memory.
 ///
 /// Positions count from 0 to twice the number of records, so that full and empty differ.
 #[repr(C)]

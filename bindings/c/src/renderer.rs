@@ -20,7 +20,7 @@ pub struct AsperityRenderer {
     tag: Tag,
 }
 
-/// What an `AsperityRenderer` leads to.
+/// Object behind an `AsperityRenderer` pointer.
 #[repr(C)]
 pub(crate) struct RendererOf<A: Numbered> {
     tag: Tag,

@@ -31,11 +31,11 @@ pub struct AsperityScene {
     tag: Tag,
 }
 
-/// What an `AsperityScene` leads to; its textures lie behind it, so it cannot be moved.
+/// Object behind an `AsperityScene` pointer; its textures follow it in memory, so it cannot be moved.
 #[repr(C)]
 pub(crate) struct SceneOf<S: Class, A: Numbered> {
     tag: Tag,
-    /// Where it was initialised.
+    /// Address at which it was initialised.
     home: usize,
     servo_rate_hz: f32,
     scene: MaybeUninit<Scene<'static, MAX_SURFACES, S, A>>,
@@ -57,7 +57,7 @@ pub struct AsperitySceneState {
     tag: Tag,
 }
 
-/// What an `AsperitySceneState` leads to.
+/// Object behind an `AsperitySceneState` pointer.
 #[repr(C)]
 pub(crate) struct SceneStateOf<A: Numbered> {
     tag: Tag,
@@ -207,7 +207,7 @@ pub unsafe extern "C" fn asperity_scene_state_counters(
     }
 }
 
-/// One servo period in a scene: as `asperity_tick`, on the surface that is touched instead of the
+/// Renders one servo period in a scene: as `asperity_tick`, on the touched surface instead of the
 /// solid of the configuration. `AsperityOutput::surface` says which one is in contact.
 ///
 /// # Safety

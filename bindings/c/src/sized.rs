@@ -15,7 +15,7 @@ use core::{ptr, slice};
 pub(crate) unsafe trait Sized: Copy {
     /// Size of the struct in the first version of this major version, bytes.
     const FIRST: usize;
-    /// What the fields are that a program of an older header leaves out.
+    /// Defaults of the fields that a program of an older header leaves out.
     const DEFAULT: Self;
 }
 

@@ -1,4 +1,4 @@
-//! What changes from tick to tick.
+//! State of a renderer, which changes from tick to tick.
 
 use crate::{
     AsperityCounters, AsperityRenderer, AsperityStatus,
@@ -21,7 +21,7 @@ pub struct AsperityState {
     tag: Tag,
 }
 
-/// What an `AsperityState` leads to.
+/// Object behind an `AsperityState` pointer.
 #[repr(C)]
 pub(crate) struct StateOf<A: Numbered> {
     tag: Tag,

@@ -131,7 +131,7 @@ pub extern "C" fn asperity_error_text(status: i32) -> *const c_char {
 pub struct AsperityError {
     /// `sizeof(AsperityError)`, from the caller.
     pub struct_size: u32,
-    /// What the function returned.
+    /// Return value of the function.
     pub status: AsperityStatus,
     /// UTF-8 that ends with a null; truncated where it is too long.
     pub message: [c_char; ASPERITY_MESSAGE_SIZE],

@@ -10,7 +10,7 @@ use core::{
 pub(crate) struct Text<'a> {
     memory: &'a mut [MaybeUninit<c_char>],
     len: usize,
-    /// Whether something did not fit.
+    /// True if the text was truncated.
     cut: bool,
 }
 
@@ -26,7 +26,7 @@ impl<'a> Text<'a> {
         text
     }
 
-    /// Whether something did not fit.
+    /// Returns true if the text was truncated.
     pub(crate) const fn is_cut(&self) -> bool {
         self.cut
     }

@@ -25,7 +25,7 @@ pub struct AsperityTexture {
     tag: Tag,
 }
 
-/// What an `AsperityTexture` leads to.
+/// Object behind an `AsperityTexture` pointer.
 #[repr(C)]
 pub(crate) struct TextureOf<S: Class, A: Numbered> {
     tag: Tag,

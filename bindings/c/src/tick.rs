@@ -1,4 +1,4 @@
-//! One servo period.
+//! Servo period: sample, output and tick.
 
 use crate::{
     AsperityRenderer, AsperityState, AsperityStatus, AsperityTexture,
@@ -186,10 +186,9 @@ pub(crate) fn same_rate<A: Numbered>(
     }
 }
 
-/// One servo period: a device sample in, a limited force out. If the pointers are right, the
-/// texture was loaded for the renderer's rate and the processor rounds to nearest, it succeeds for
-/// every sample. Otherwise
-/// the output, where there is one, is zero force and the safe state.
+/// Renders one servo period: a device sample in, a limited force out. If the pointers are right,
+/// the texture was loaded for the renderer's rate and the processor rounds to nearest, it succeeds
+/// for every sample. Otherwise the output, where there is one, is zero force and the safe state.
 ///
 /// # Safety
 /// `renderer`, `texture` and `state` are null or initialised objects; nobody writes to the

@@ -113,7 +113,7 @@ pub unsafe extern "C" fn asperity_flags_text(
 mod tests {
     use super::*;
 
-    /// What `words` say in a buffer of `SIZE` bytes, and the status.
+    /// Returns the text of `words` in a buffer of `SIZE` bytes, and the status.
     fn said<const SIZE: usize>(
         words: impl FnOnce(*mut c_char, usize) -> AsperityStatus,
     ) -> (String, AsperityStatus) {

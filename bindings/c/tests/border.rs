@@ -304,7 +304,7 @@ fn a_slot_begins_empty_in_any_memory() {
     assert!(is_empty(slot));
 }
 
-/// What the index states of a texture is compared with the texture, of which C reads the haptic part alone.
+/// The index entry of a texture is checked against the texture, of which C reads the haptic part alone.
 #[test]
 fn a_haptic_length_of_the_index_that_is_wrong_is_refused() {
     let (len, haptic_len) = (
@@ -339,8 +339,8 @@ fn a_haptic_length_of_the_index_that_is_wrong_is_refused() {
     }
 }
 
-/// Whether every number of a slot is that of an empty one. Miri would print them for minutes, so
-/// it compares the rate alone.
+/// Returns true if every number of a slot is that of an empty one. Miri would print them for
+/// minutes, so it compares the rate alone.
 fn is_empty(slot: &HostTexture) -> bool {
     slot.servo_rate_hz() == 0.0
         && (cfg!(miri) || format!("{slot:?}") == format!("{:?}", HostTexture::EMPTY))

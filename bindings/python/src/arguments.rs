@@ -28,12 +28,12 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Origin {
     }
 }
 
-/// One texture of a library.
+/// Selection of a texture of a library.
 #[derive(FromPyObject)]
 pub(crate) enum Choice {
-    /// By its place; from the end where negative.
+    /// By index; negative from the end.
     Index(isize),
-    /// By its name.
+    /// By name.
     Name(String),
 }
 
@@ -79,11 +79,11 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Seed {
 /// A preview: `True` for the usual one, `False` for none, or its width and height in pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Preview {
-    /// Of the usual size.
+    /// Default size.
     Usual,
     /// None.
     None,
-    /// Of this size.
+    /// Given size, px.
     Size(u32),
 }
 

@@ -179,7 +179,7 @@ fn program(py: Python<'_>) -> PyResult<String> {
     Ok(format!("python {} {crc32:08x}", env!("CARGO_PKG_VERSION")))
 }
 
-/// What is built, and how.
+/// Arguments of a build.
 struct Job {
     manifest: PathBuf,
     path: Option<PathBuf>,
@@ -194,7 +194,7 @@ struct Job {
     program: String,
 }
 
-/// What was built, and what is reported.
+/// Result of a build, and its report.
 struct Built {
     content: Content,
     report: Value,

@@ -1,4 +1,4 @@
-//! What many ticks give, a column a quantity.
+//! Outputs of many ticks, a column per quantity.
 
 use crate::{
     arrays::{list, table},

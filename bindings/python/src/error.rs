@@ -8,7 +8,7 @@ use asperity_io::diagnostic::{Diagnostic, Failures};
 use pyo3::{exceptions::PyValueError, prelude::*};
 use std::{error::Error, fmt::Display};
 
-/// What went wrong and what to do about it; Python raises it as an exception.
+/// A failure and its remedy; Python raises it as an exception.
 #[derive(Debug)]
 pub(crate) struct Failure {
     class: &'static str,
@@ -127,8 +127,7 @@ fn in_python(text: &str) -> String {
     result
 }
 
-/// What kept a source from becoming a texture, in the words of Python where those of the command
-/// would not do.
+/// Reports why a source did not compile, rewording failures whose command-line text does not suit Python.
 pub(crate) fn stopped(failure: asperity::driver::Failure) -> Failure {
     let error: &dyn Error = &*failure;
     if let Some(PromptError::Empty) = error.downcast_ref() {

@@ -19,7 +19,7 @@ use pyo3::{IntoPyObjectExt as _, prelude::*, types::PyBytes};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-/// What is exported.
+/// Argument of an export.
 #[derive(FromPyObject)]
 pub(crate) enum Exportable<'py> {
     Texture(Bound<'py, Texture>),
@@ -193,7 +193,7 @@ pub(crate) fn export<'py>(
     )
 }
 
-/// What is exported, without the interpreter.
+/// Object to export, without the interpreter.
 enum What<'a> {
     Texture(&'a Texture),
     Library(&'a Library),

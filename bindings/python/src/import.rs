@@ -1,4 +1,4 @@
-//! What is imported, and the built-in texture.
+//! Imports, and the built-in texture.
 
 use crate::{
     arguments::{Fidelity, Preview, within},
@@ -368,7 +368,7 @@ pub(crate) fn import_effect(
     author::texture(py, compiled, &report)
 }
 
-/// What is asked of a texture that is imported.
+/// Builds the request for an imported texture.
 fn request(
     name: Option<String>,
     fidelity: Fidelity,

@@ -81,18 +81,18 @@ pub(crate) fn merge(libraries: &Bound<'_, PyAny>, path: Option<PathBuf>) -> PyRe
     Ok(merged)
 }
 
-/// What changed between two libraries, or two textures whatever their names.
+/// Compares two libraries, or two textures whatever their names.
 ///
 /// Parameters
 /// ----------
 /// old, new : Library or Texture
-///     What is compared.
+///     The two versions.
 ///
 /// Returns
 /// -------
 /// dict
-///     As ``asperity diff --json`` prints it: names that were ``"added"`` and ``"removed"``, what
-///     ``"changed"``, and how many are the ``"same"``.
+///     As ``asperity diff --json`` prints it: names ``"added"`` and ``"removed"``, what
+///     ``"changed"``, and the number of textures that are the ``"same"``.
 ///
 /// Examples
 /// --------

@@ -206,7 +206,7 @@ impl Library {
         self.names.clone()
     }
 
-    /// What the build reported, or None for a library that was loaded or packed.
+    /// Report of the build, or None for a library that was loaded or packed.
     ///
     /// It is what ``asperity build --json`` prints, without the path.
     #[getter]

@@ -18,7 +18,7 @@ use asperity::{
 use asperity_io::clock::now;
 use pyo3::prelude::*;
 
-/// What every mixture takes besides its ingredients.
+/// Common arguments of mixtures, besides the ingredients.
 pub(crate) struct Mixing<'a, 'py> {
     pub(crate) name: Option<String>,
     pub(crate) preview: Preview,

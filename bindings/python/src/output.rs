@@ -3,7 +3,7 @@
 use asperity_runtime as runtime;
 use pyo3::prelude::*;
 
-/// What one tick gave.
+/// Output of a tick.
 ///
 /// Attributes
 /// ----------

@@ -20,7 +20,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// Ticks between two looks for Ctrl-C, below 0.1 s.
 const TOGETHER: usize = 100_000;
 
-/// What is rendered.
+/// Object to render.
 #[derive(FromPyObject)]
 pub(crate) enum Felt<'py> {
     Texture(Bound<'py, Texture>),
@@ -178,7 +178,7 @@ impl Renderer {
         self.rate_hz
     }
 
-    /// Whether it computes in fixed point.
+    /// True if it computes in fixed point.
     #[getter]
     fn fixed_point(&self) -> bool {
         self.fixed_point

@@ -20,7 +20,7 @@ pub(crate) trait Servo: Send + Sync {
         columns: &mut Columns,
     );
 
-    /// One tick, and the surface of a scene that it touches.
+    /// Renders a tick; also returns the touched surface of a scene.
     fn tick(&mut self, sample: &Sample) -> (Output, Option<usize>);
 
     /// A state at rest.
@@ -216,7 +216,7 @@ where
     }
 }
 
-/// What a scene that could not be borrowed would give.
+/// Output in place of a scene that could not be borrowed.
 const AT_REST: Output = Output {
     force_n: [0.0; 3],
     depth_m: 0.0,

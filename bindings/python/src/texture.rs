@@ -169,7 +169,7 @@ impl Texture {
         record(py, "Gains", &self.document()?.gains)
     }
 
-    /// How rough, sharp, hard and slippery it is, computed from the asset.
+    /// Roughness, sharpness, hardness and slipperiness, computed from the asset.
     #[getter]
     fn attributes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         record(py, "Attributes", &self.document()?.attributes)
@@ -187,10 +187,10 @@ impl Texture {
         record(py, "Provenance", &self.document()?.provenance)
     }
 
-    /// What the compiler or the importer reported, or None for a texture that was loaded.
+    /// Report of the compiler or the importer, or None for a texture that was loaded.
     ///
-    /// Of a prompt, it is what ``asperity compile --json`` prints: nearest materials, certainty,
-    /// what was left out, how long each pass took.
+    /// For a prompt, it is what ``asperity compile --json`` prints: nearest materials, certainty,
+    /// what was left out, the duration of each pass.
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         self.report

@@ -32,7 +32,7 @@ impl Steps {
         self.total.store(total, Relaxed);
     }
 
-    /// One more is done, on any thread.
+    /// Counts a completed step, from any thread.
     pub(crate) fn done(&self) {
         self.done.fetch_add(1, Relaxed);
     }

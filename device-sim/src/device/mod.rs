@@ -14,7 +14,7 @@ use crate::axis::{AxisParams, AxisState, Pull};
 /// contact does, since the servo holds its force for a whole tick.
 pub const SUBSTEPS: u32 = 16;
 
-/// How often the device changed a command or hit a stop.
+/// Counts of altered commands and of hits of a workspace stop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct DeviceCounts {
     /// Commands scaled down to the peak force.

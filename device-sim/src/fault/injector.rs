@@ -33,7 +33,7 @@ impl<S: Servo> FaultInjector<S> {
         })
     }
 
-    /// How many ticks each kind has taken so far.
+    /// Returns the ticks affected so far, per kind of fault.
     #[must_use]
     pub fn counts(&self) -> FaultCounts<KINDS> {
         self.schedule.counts()

@@ -17,7 +17,7 @@ pub enum SampleFault {
     Late,
 }
 
-/// How many kinds there are.
+/// Number of kinds.
 pub(super) const KINDS: usize = 5;
 
 impl fault_plan::FaultKind<KINDS> for SampleFault {
@@ -44,5 +44,5 @@ impl fault_plan::FaultKind<KINDS> for SampleFault {
     }
 }
 
-/// How often each fault of samples starts and how many ticks it lasts.
+/// Start rate and duration in ticks of each fault of samples.
 pub type FaultPlan = fault_plan::FaultPlan<SampleFault, KINDS>;

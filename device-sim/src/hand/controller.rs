@@ -34,7 +34,7 @@ const CORRECTION_N: f64 = 1.5;
 /// Force of the grip's spring at the deepest intended point of a tap, N.
 const TAP_FORCE_N: f64 = 1.0;
 
-/// How the current motion governs the height.
+/// Phase of height control within the current motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Stage {
     /// Through the air down to the feeler height.
@@ -375,7 +375,7 @@ impl Hand {
     }
 }
 
-/// Whether a motion holds a normal force.
+/// Returns true if the motion holds a normal force.
 fn holds_force(motion: &Motion) -> bool {
     match motion {
         Motion::Press { .. }
@@ -388,7 +388,7 @@ fn holds_force(motion: &Motion) -> bool {
     }
 }
 
-/// Whether a motion changes the normal force while it lasts.
+/// Returns true if the motion varies the normal force.
 fn changes_force(motion: &Motion) -> bool {
     matches!(motion, Motion::Sweep { .. } | Motion::Loop { .. })
 }

@@ -1,4 +1,4 @@
-//! How tightly the stylus is held, read from TOML.
+//! Grip parameters of a hand on the stylus, read from TOML.
 
 use std::path::Path;
 

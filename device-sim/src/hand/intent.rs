@@ -1,9 +1,9 @@
-//! What a hand wants during one tick, and how its grip pulls.
+//! Intent of a hand during a tick, and the resulting pull on each axis.
 
 use super::grip::Grip;
 use crate::axis::Pull;
 
-/// What the hand wants during one tick.
+/// Intent of the hand during a tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Intent {
     /// Intended position at the start of the tick, m.
@@ -16,7 +16,7 @@ pub struct Intent {
     pub wanted_n: Option<f64>,
     /// Index of the motion in the script.
     pub motion: usize,
-    /// Whether the motion itself runs; false while the hand lands or settles.
+    /// True while the motion itself runs; false while the hand lands or settles.
     pub in_body: bool,
 }
 

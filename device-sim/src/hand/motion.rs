@@ -1,15 +1,15 @@
-//! What a hand can be told to do.
+//! Motions of a simulated hand.
 
 use std::fmt;
 
-/// One motion of a script. The surface is the plane z = 0, normal +z.
+/// A motion of a script. The surface is the plane z = 0, normal +z.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Motion {
     /// Move through the air to hover over a point.
     Approach {
-        /// Where to, m.
+        /// Target position, m.
         to_m: [f64; 3],
-        /// How long, s.
+        /// Duration, s.
         duration_s: f64,
     },
     /// Strike the surface and come back up.
@@ -21,12 +21,12 @@ pub enum Motion {
     Press {
         /// Largest normal force, N.
         force_n: f64,
-        /// How long, s.
+        /// Duration, s.
         duration_s: f64,
     },
     /// Slide in a straight line at constant speed.
     Stroke {
-        /// Where to in the plane, m.
+        /// Target position in the plane, m.
         to_m: [f64; 2],
         /// Speed between the ramps, m/s.
         speed_m_s: f64,
@@ -39,18 +39,18 @@ pub enum Motion {
         amplitude_m: f64,
         /// Cycles a second, Hz.
         frequency_hz: f64,
-        /// How many cycles.
+        /// Number of cycles.
         cycles: f64,
         /// Normal force, N.
         force_n: f64,
     },
     /// Slide along an arc with a minimum-jerk profile, from rest to rest, while the force changes.
     Sweep {
-        /// Where to in the plane, m.
+        /// Target position in the plane, m.
         to_m: [f64; 2],
-        /// How far the middle of the arc lies left of the straight line, m.
+        /// Sagitta of the arc, positive to the left of the chord, m.
         bow_m: f64,
-        /// How long, s.
+        /// Duration, s.
         duration_s: f64,
         /// Normal force at its end, N; it begins with the force of the motion before.
         force_n: f64,
@@ -61,9 +61,9 @@ pub enum Motion {
         radius_m: f64,
         /// Radius along y over that along x.
         aspect: f64,
-        /// How often.
+        /// Number of revolutions.
         turns: f64,
-        /// How long, s.
+        /// Duration, s.
         duration_s: f64,
         /// Normal force at its end, N; it begins with the force of the motion before.
         force_n: f64,
@@ -72,14 +72,14 @@ pub enum Motion {
     Rest {
         /// Normal force, N.
         force_n: f64,
-        /// How long, s.
+        /// Duration, s.
         duration_s: f64,
     },
     /// Leave the surface.
     Lift {
-        /// How high, m.
+        /// Final height, m.
         height_m: f64,
-        /// How long, s.
+        /// Duration, s.
         duration_s: f64,
     },
 }

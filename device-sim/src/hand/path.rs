@@ -32,7 +32,7 @@ impl StrokePath {
         }
     }
 
-    /// How long it takes, s.
+    /// Returns the duration, s.
     #[must_use]
     pub fn duration_s(&self) -> f64 {
         if self.speed_m_s > 0.0 {
@@ -118,7 +118,7 @@ impl TapPath {
         TAP_TRAVEL_S + 2.0 * self.height_m / self.speed_m_s
     }
 
-    /// How long it takes, s.
+    /// Returns the duration, s.
     #[must_use]
     pub fn duration_s(&self) -> f64 {
         self.impact_s() + TAP_COAST_S + self.sink_s + TAP_DWELL_S + TAP_TRAVEL_S

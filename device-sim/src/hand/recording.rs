@@ -1,4 +1,4 @@
-//! What a person does who records a surface: taps, and strokes at all speeds and forces, steady or free.
+//! Script of a person recording a surface: taps, and strokes at all speeds and forces, steady or free.
 
 use rand_core::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;

@@ -35,7 +35,7 @@ pub(crate) fn conditions(bytes: &[u8], device: &str) -> Conditions {
     }
 }
 
-/// What a period did.
+/// Result of a servo period.
 pub(crate) struct Period {
     pub(crate) entry: Entry,
     pub(crate) output: Output,

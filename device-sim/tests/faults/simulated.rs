@@ -10,7 +10,7 @@ pub(crate) struct Simulated {
     mechanism: Mechanism,
     hand: Hand,
     tick_s: f64,
-    /// What the hand wants in the period that runs.
+    /// Intent of the hand in the current period.
     intent: Option<Intent>,
     periods: u64,
     buttons: u32,

@@ -1,4 +1,4 @@
-//! What a USB device says of itself (USB 2.0, chapter 9.6).
+//! USB descriptors (USB 2.0, chapter 9.6).
 
 /// An endpoint of an interface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -100,7 +100,7 @@ impl Descriptors {
         Some(bytes)
     }
 
-    /// Whether it has this endpoint.
+    /// Returns true for an endpoint of any interface, and for endpoint 0.
     #[must_use]
     pub fn has_endpoint(&self, address: u8) -> bool {
         let mut all = self.interfaces.iter().flat_map(|i| &i.endpoints);

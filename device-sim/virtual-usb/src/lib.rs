@@ -32,35 +32,35 @@ use descriptor::Descriptors;
 use falcon::Falcon;
 use touch::Touch;
 
-/// What an endpoint does with a transfer.
+/// Response of an endpoint to a transfer.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Answer {
-    /// It takes or gives these bytes; for a transfer to the device, none.
+    /// Completed; bytes of an IN transfer, none for OUT.
     Done(Vec<u8>),
-    /// It has nothing yet.
+    /// No data yet.
     Pending,
-    /// It refuses.
+    /// Refused.
     Stall,
 }
 
 /// A device without a bus.
 pub trait Device: Send {
-    /// What it says of itself.
+    /// Returns its descriptors.
     fn descriptors(&self) -> &descriptor::Descriptors;
 
-    /// A control request of a class or a vendor. `data` is what came with it.
+    /// Handles a class or vendor control request with its data stage, `data`.
     fn control(&mut self, setup: &Setup, data: &[u8]) -> Answer;
 
-    /// Bytes to an endpoint.
+    /// Writes bytes to an endpoint.
     fn write(&mut self, endpoint: u8, bytes: &[u8]) -> Answer;
 
-    /// Bytes from an endpoint, at most `most`.
+    /// Reads at most `most` bytes from an endpoint.
     fn read(&mut self, endpoint: u8, most: usize) -> Answer;
 
-    /// Lets time pass.
+    /// Advances time.
     fn advance(&mut self, seconds: f64);
 
-    /// It was plugged in again. A device with a power supply of its own keeps its state.
+    /// Called when it is plugged in again. A self-powered device keeps its state.
     fn plugged_in(&mut self) {}
 }
 

@@ -44,23 +44,23 @@ impl Setup {
     }
 }
 
-/// What a transfer comes to.
+/// Outcome of a transfer.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Reply {
-    /// It is done; `count` bytes went to the device, or `bytes` came from it.
+    /// Completed: `count` bytes out, or `bytes` in.
     Done {
-        /// Bytes that went through.
+        /// Bytes transferred.
         count: usize,
         /// Bytes from the device.
         bytes: Vec<u8>,
     },
-    /// Nothing yet: ask again.
+    /// No data yet: retry.
     Pending,
-    /// Nothing ever: the transfer must be given up.
+    /// No response will come: the transfer must be cancelled.
     Never,
-    /// The endpoint stalls.
+    /// Endpoint stalled.
     Stalled,
-    /// There is no such device.
+    /// Device gone.
     Gone,
 }
 
@@ -130,13 +130,13 @@ impl<D: Device> Port<D> {
         self.faults.counts
     }
 
-    /// Whether it is plugged in.
+    /// Returns true while it is plugged in.
     #[must_use]
     pub fn is_plugged_in(&self) -> bool {
         self.away_s.is_none()
     }
 
-    /// How often it was plugged in: a handle from before another time is void.
+    /// Returns the number of times it was plugged in. Handles from before the latest are void.
     #[must_use]
     pub fn times_plugged_in(&self) -> u64 {
         self.plugged

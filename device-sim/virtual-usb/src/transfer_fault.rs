@@ -3,14 +3,14 @@
 use rand_core::{Rng as _, SeedableRng as _};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-/// What goes wrong with a transfer.
+/// A kind of transfer fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TransferFault {
-    /// The endpoint refuses this and every other transfer until it is cleared.
+    /// The endpoint halts: this and later transfers stall until it is cleared.
     Stall,
-    /// Only a part of the bytes goes through; the rest is lost.
+    /// A part of the bytes is transferred; the rest is lost.
     Short,
-    /// Nothing answers until the transfer is given up.
+    /// No response until the transfer is cancelled.
     TimeOut,
     /// The device is unplugged, and plugged in again a little later.
     Unplug,
@@ -45,7 +45,7 @@ impl Rates {
     }
 }
 
-/// How many faults there were.
+/// Counts of injected faults.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct FaultCounts {
     /// In the order of [`ALL`].
@@ -85,7 +85,7 @@ impl Faults {
         None
     }
 
-    /// How many of `bytes` a short transfer lets through: less than all.
+    /// Returns the length of a short transfer, less than `bytes`.
     pub(super) fn part(&mut self, bytes: usize) -> usize {
         (self.unit() * bytes as f64) as usize
     }

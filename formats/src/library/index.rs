@@ -253,7 +253,7 @@ impl<'a> LibraryIndex<'a> {
         self.entries.len() / ENTRY_LEN
     }
 
-    /// Whether the library has no texture.
+    /// Returns true if the library has no textures.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.entries.is_empty()

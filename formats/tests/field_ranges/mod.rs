@@ -20,7 +20,7 @@ const ANCHOR: usize = 5;
 /// Behind the only anchor.
 const LAW: usize = ANCHOR + 15;
 
-/// What the error must say of a patched field.
+/// Expected error for a patched field.
 enum Expect {
     Invalid(&'static str, u32, f64),
     Text(&'static str, u32, &'static str),

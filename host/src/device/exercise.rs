@@ -14,12 +14,12 @@ use super::{Description, Device, DeviceError};
 /// Time that a device has for its answer where the ticks wait for it.
 const ANSWER: Duration = Duration::from_millis(50);
 
-/// What to do.
+/// Parameters of an exercise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plan {
     /// Ticks.
     pub ticks: u32,
-    /// Ticks a second; 0 waits for an answer of the device in each.
+    /// Tick rate, Hz; 0 waits for an answer of the device in each tick.
     pub rate_hz: f64,
     /// The mechanics of the device.
     pub mechanics: MechanicsConfig,
@@ -27,7 +27,7 @@ pub struct Plan {
     pub peak_n: f32,
     /// Seed of the texture's excitation.
     pub seed: u64,
-    /// Times that a lost device is looked for, each up to 0.1 s, before it is given up.
+    /// Recovery attempts for a lost device, each up to 0.1 s.
     pub patience: u32,
 }
 
@@ -49,7 +49,7 @@ impl Plan {
     }
 }
 
-/// What became of it.
+/// Statistics of an exercise.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Report {
     /// Ticks.
@@ -64,7 +64,7 @@ pub struct Report {
     pub lost_writes: u32,
     /// Times that a device was lost and came back.
     pub recovered: u32,
-    /// Whether it was lost for good.
+    /// True if it was lost for good.
     pub lost: bool,
     /// Ticks in contact.
     pub contact: u32,
@@ -173,7 +173,7 @@ pub fn exercise(
     Ok(report)
 }
 
-/// Whether a fault does not go away by waiting for the next tick.
+/// Returns true for faults that waiting for the next tick does not clear.
 fn away(fault: DeviceError) -> bool {
     matches!(
         fault,

@@ -26,18 +26,18 @@ pub use null::NullDevice;
 pub use open::{OpenError, open};
 pub use uri::{Scheme, Uri, UriError};
 
-/// What a device says in one servo period.
+/// Reading of a device in one servo period.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reading {
     /// Stylus position in the world frame, m.
     pub position_m: [f32; 3],
-    /// Whether the device measured it since the last reading.
+    /// True if measured since the last reading.
     pub fresh: bool,
-    /// Buttons that are held, a bit each, the first in bit 0.
+    /// Pressed buttons, a bit each, the first in bit 0.
     pub buttons: u32,
 }
 
-/// What a device is, and what the servo loop must know of it.
+/// Properties of a device that the servo loop needs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Description {
     /// Name for reports, such as `Novint Falcon`.
@@ -48,7 +48,7 @@ pub struct Description {
     pub peak_force_n: f32,
     /// Magnitude that the device can hold permanently, N.
     pub continuous_force_n: f32,
-    /// What nobody has confirmed on hardware, a sentence each; empty for what runs in software.
+    /// Properties not yet confirmed on hardware, a sentence each; empty for what runs in software.
     pub unconfirmed: Vec<String>,
 }
 
@@ -56,7 +56,7 @@ pub struct Description {
 ///
 /// Dropping a device releases it: its force goes to zero first.
 pub trait Device: Send {
-    /// What it is.
+    /// Returns its properties.
     fn description(&self) -> &Description;
 
     /// The newest position. A device that has nothing new repeats the last reading with `fresh`

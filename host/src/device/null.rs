@@ -4,7 +4,7 @@ use super::{Description, Device, DeviceError, Reading, Uri, open::OpenError};
 
 /// Where it rests by default, m: in free air over the plane z = 0.
 const FREE_AIR_M: f32 = 0.05;
-/// How far away it may rest, mm.
+/// Largest distance of its resting height from zero, mm.
 const REACH_MM: f32 = 1000.0;
 
 /// A device that is none. Every reading is fresh.

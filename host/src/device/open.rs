@@ -19,7 +19,7 @@ pub enum OpenError {
         uri: String,
         /// The setting.
         key: &'static str,
-        /// What it must be.
+        /// Rule for its value.
         rule: &'static str,
     },
     /// This program has no such device.
@@ -35,9 +35,9 @@ pub enum OpenError {
     Failed {
         /// The device.
         uri: String,
-        /// What is wrong.
+        /// Reason.
         why: String,
-        /// What to do about it.
+        /// Remedy.
         remedy: String,
     },
 }
@@ -53,7 +53,7 @@ impl OpenError {
         }
     }
 
-    /// What the user can do, in one sentence.
+    /// Returns a remedy for the user, a single sentence.
     #[must_use]
     pub fn remedy(&self) -> String {
         match self {

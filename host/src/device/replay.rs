@@ -5,7 +5,7 @@ use std::path::Path;
 use super::{Description, Device, DeviceError, Reading, Uri, UriError};
 use crate::session_log::{Ending, SessionLog, SessionLogError};
 
-/// What happens after the last tick of a recording.
+/// Behaviour after the last tick of a recording.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum AtEnd {
     /// The device is gone.
@@ -42,7 +42,7 @@ pub enum ReplayError {
 }
 
 impl ReplayError {
-    /// What to do about it.
+    /// Returns a remedy for the user.
     #[must_use]
     pub fn remedy(&self) -> &'static str {
         match self {

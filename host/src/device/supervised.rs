@@ -31,39 +31,39 @@ impl Default for Plausible {
     }
 }
 
-/// What a period begins with.
+/// Outcome of the read at the start of a period.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReadOutcome {
-    /// What the tick is given.
+    /// Sample for the tick.
     pub sample: Sample,
-    /// Buttons that are held.
+    /// Pressed buttons.
     pub buttons: u32,
-    /// What is wrong in this period.
+    /// Fault in this period.
     pub fault: Option<DeviceError>,
-    /// What to tell the user, once for each fault however long it lasts.
+    /// Report to the user, once per fault however long it lasts.
     pub report: Option<Report>,
 }
 
-/// What happened to a device.
+/// Start or end of a device fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Report {
     /// A fault began.
     Began(DeviceError),
-    /// It is over.
+    /// The fault ended.
     Ended {
-        /// What began it.
+        /// First error of the fault.
         fault: DeviceError,
-        /// Periods that it lasted.
+        /// Duration, periods.
         periods: u32,
     },
 }
 
-/// What happened so far.
+/// Statistics so far.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct DeviceStats {
     /// Periods.
     pub periods: u64,
-    /// Periods that the loop missed.
+    /// Missed periods.
     pub missed: u64,
     /// Readings that failed, implausible ones included.
     pub read_faults: u64,
@@ -75,7 +75,7 @@ pub struct DeviceStats {
     pub eased: u64,
     /// Faults, each counted once however long it lasts.
     pub episodes: u64,
-    /// Times that the device came back by [`Device::recover`].
+    /// Successful recoveries by [`Device::recover`].
     pub recoveries: u64,
 }
 
@@ -93,13 +93,13 @@ pub struct Supervised<D> {
     /// Periods since the last sample that was good.
     since: u32,
     last: Option<Reading>,
-    /// What the last reading and the last force said.
+    /// Faults of the last reading and of the last write.
     read_fault: Option<DeviceError>,
     write_fault: Option<DeviceError>,
     quiet: u32,
-    /// What began the fault that lasts, and for how many periods.
+    /// First error of the current fault, and its duration so far, periods.
     episode: Option<(DeviceError, u32)>,
-    /// The force that was asked for last, and the one that the device took last, N.
+    /// Last force requested, and last force accepted by the device, N.
     wanted_n: [f32; 3],
     held_n: [f32; 3],
     tally: DeviceStats,
@@ -136,7 +136,7 @@ impl<D: Device> Supervised<D> {
         &mut self.device
     }
 
-    /// What happened so far.
+    /// Returns the statistics so far.
     pub fn tally(&self) -> DeviceStats {
         self.tally
     }
@@ -188,7 +188,7 @@ impl<D: Device> Supervised<D> {
         }
     }
 
-    /// Whether a reading can be one of a hand.
+    /// Rejects a reading that no hand can produce.
     fn plausible(&self, reading: Reading) -> Result<Reading, DeviceError> {
         let Plausible {
             reach_m,
@@ -270,7 +270,8 @@ impl<D: Device> Supervised<D> {
         std::array::from_fn(|axis| self.held_n[axis] + part * way[axis])
     }
 
-    /// Whether the device should be recovered now: its last call failed, and no force is asked for.
+    /// Returns true if the device should be recovered now: its last call failed and zero force is
+    /// requested.
     pub fn wants_recovery(&self) -> bool {
         let failed = self.read_fault.or(self.write_fault).is_some();
         failed && self.wanted_n == [0.0; 3]

@@ -33,7 +33,7 @@ impl Scheme {
         Self::Null,
     ];
 
-    /// What stands before the colon.
+    /// Returns the scheme's name, before the colon.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -74,11 +74,11 @@ pub enum UriError {
     /// A setting that this kind of device does not have.
     #[error("{scheme}: has no setting `{key}`; it has {known}")]
     Unknown {
-        /// What stands before the colon.
+        /// Scheme, before the colon.
         scheme: &'static str,
         /// The setting.
         key: String,
-        /// Those that there are.
+        /// Known settings.
         known: String,
     },
 }

@@ -39,7 +39,7 @@ pub struct Shift {
 }
 
 impl Shift {
-    /// Whether the confidence range excludes a shift of zero.
+    /// Returns true if the confidence interval excludes zero.
     #[must_use]
     pub fn is_clear(&self) -> bool {
         self.confidence_ns

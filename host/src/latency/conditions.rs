@@ -1,4 +1,4 @@
-//! Under which conditions a run was made.
+//! Conditions of a run.
 
 use crate::servo::privileges::Grant;
 use serde::{Deserialize, Serialize};
@@ -9,19 +9,19 @@ use std::fs;
 pub struct Machine {
     /// Name, release and version of the kernel.
     pub kernel: String,
-    /// Whether the kernel can be preempted, as far as it says.
+    /// Preemption model of the kernel, as far as known.
     pub preemption: String,
-    /// Model of the processors.
+    /// Processor model.
     pub processor: Option<String>,
-    /// How many of them this process may use.
+    /// Processors available to this process.
     pub processors: usize,
-    /// Whether it is a virtual machine, as far as the processor says.
+    /// True for a virtual machine, as far as the processor reports it.
     pub virtual_machine: Option<bool>,
-    /// Where the time comes from.
+    /// Clock source.
     pub clock_source: Option<String>,
-    /// How the frequency of a processor is chosen.
+    /// Frequency governor.
     pub governor: Option<String>,
-    /// Processors that are kept free of other threads.
+    /// Isolated processors.
     pub isolated: Option<String>,
     /// Processors without a regular tick.
     pub nohz_full: Option<String>,
@@ -107,28 +107,28 @@ fn preemption(kernel: &str) -> String {
     }
 }
 
-/// Under which conditions a run was made.
+/// Conditions of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Conditions {
     /// The machine.
     pub machine: Machine,
     /// Ticks a second, Hz.
     pub rate_hz: u32,
-    /// What happened to missed periods.
+    /// Overrun policy.
     pub overrun: String,
-    /// Time before each tick in which the loop did not sleep but wait, µs.
+    /// Busy-wait before each tick, µs.
     pub spin_us: u64,
-    /// What the system granted.
+    /// Privileges granted by the system.
     pub granted: Vec<String>,
-    /// What it refused, and why.
+    /// Privileges refused, with the reason.
     pub refused: Vec<String>,
     /// The device.
     pub device: String,
     /// The texture or scene.
     pub texture: String,
-    /// What else the machine did.
+    /// Load on the machine during the run.
     pub load: String,
-    /// The delay that was put in on purpose.
+    /// Injected delay.
     pub injected: Option<String>,
     /// Version of Asperity.
     pub version: String,

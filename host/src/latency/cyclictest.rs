@@ -50,7 +50,7 @@ pub struct Cyclictest {
     child: Child,
 }
 
-/// What cyclictest measured.
+/// Results of cyclictest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Wakeups {
     /// Version of rt-tests.
@@ -66,8 +66,8 @@ pub struct Wakeups {
 }
 
 impl Cyclictest {
-    /// How long after a full second of the monotonic clock a loop at this rate begins, ns, to be
-    /// compared with it.
+    /// Start of a loop at this rate relative to a full second of the monotonic clock, ns, so that
+    /// it is comparable with cyclictest.
     #[must_use]
     pub fn offset_ns(rate_hz: u32) -> u64 {
         1_000_000_000 / u64::from(rate_hz) / 4

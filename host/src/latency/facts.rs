@@ -1,14 +1,14 @@
-//! What a run is, apart from its histograms.
+//! Metadata of a run.
 
 use super::{conditions::Conditions, worst::WorstTick};
 use serde::{Deserialize, Serialize};
 
-/// What a run is, apart from its histograms. An interval log keeps it as a comment.
+/// Metadata of a run, apart from its histograms. An interval log stores it as a comment.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Facts {
-    /// Ticks that were recorded.
+    /// Recorded ticks.
     pub ticks: u64,
-    /// Periods that were missed.
+    /// Missed periods.
     pub missed: u64,
     /// Ticks whose records were lost on the way to the histograms.
     pub lost: u64,
@@ -16,8 +16,8 @@ pub struct Facts {
     pub period_ns: u64,
     /// Longest time from one wake-up to the next, ns.
     pub longest_gap_ns: u64,
-    /// Whether missed ticks left no record of their own, so that histograms need the correction
-    /// for coordinated omission.
+    /// True if missed ticks left no record of their own, so that histograms need the correction for
+    /// coordinated omission.
     pub omits: bool,
     /// When it began, s since 1970.
     pub began_s: f64,

@@ -15,7 +15,7 @@ use hdrhistogram::serialization::{
 use std::time::{Duration, UNIX_EPOCH};
 use thiserror::Error;
 
-/// What begins the comment with the facts.
+/// Prefix of the comment with the metadata.
 const FACTS: &str = "asperity-lab jitter ";
 /// Largest values are written in ms.
 const MAX_DIVISOR: f64 = 1e6;
@@ -103,7 +103,7 @@ fn facts_of(bytes: &[u8]) -> Option<&[u8]> {
     lines.find_map(|line| line.strip_prefix(b"#")?.strip_prefix(FACTS.as_bytes()))
 }
 
-/// Whether bytes are a log that [`write_log`] wrote, whole or damaged.
+/// Returns true if the bytes are a log written by [`write_log`], whole or damaged.
 #[must_use]
 pub fn is_log(bytes: &[u8]) -> bool {
     facts_of(bytes).is_some()

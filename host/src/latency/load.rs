@@ -20,10 +20,10 @@ const TIMER_THREADS: usize = 32;
 /// Time between two timers of a thread.
 const TIMER: Duration = Duration::from_micros(200);
 
-/// What else the machine does meanwhile. It ends with the measurement.
+/// Load on the machine during a measurement; it ends with it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Load {
-    /// Nothing that we do.
+    /// No load.
     None,
     /// A busy thread on every processor.
     Cpu,

@@ -1,22 +1,22 @@
-//! How punctual a servo loop is.
+//! Timing of a servo loop.
 //!
-//! A [`Collector`] takes the records of a loop on another thread and makes a [`Run`] of them: for
-//! every stage a histogram of each interval of time, and the worst ticks. Times are ns.
+//! A [`Collector`] drains the records of a loop on another thread into a [`Run`]: for every stage a
+//! histogram per interval of time, and the worst ticks. Times are ns.
 //!
 //! | file | holds |
 //! |---|---|
-//! | `collect` | from records to a run |
+//! | `collect` | aggregation of records into a run |
 //! | `run` | a run: its intervals, sums, and corrected histograms |
-//! | `percentiles` | which percentiles are reported |
-//! | `verdict` | whether a run was punctual, and within stated limits |
+//! | `percentiles` | the reported percentiles |
+//! | `verdict` | the verdict by the rule of thumb and by given limits |
 //! | `series` | every tick as a line of CSV |
 //! | `worst` | the worst ticks |
 //! | `hgrm`, `hlog`, `encoded` | the files of HdrHistogram's own tools |
-//! | `compare` | the shift of each percentile, with a bootstrap confidence |
-//! | `inject` | a controlled delay, to see whether it is found |
-//! | `load` | bounded work for the machine meanwhile |
-//! | `conditions` | under which conditions a run was made |
-//! | `cyclictest` | the same by another program |
+//! | `compare` | the shift of each percentile, with a bootstrap confidence interval |
+//! | `inject` | a controlled delay, to check that it is detected |
+//! | `load` | bounded load on the machine meanwhile |
+//! | `conditions` | the conditions of a run |
+//! | `cyclictest` | the same measurement by another program |
 
 mod collect;
 mod compare;

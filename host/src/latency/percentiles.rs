@@ -1,4 +1,4 @@
-//! Which percentiles of a distribution are reported.
+//! Percentiles reported of a distribution.
 
 use hdrhistogram::Histogram;
 use serde::{Deserialize, Serialize};
@@ -13,7 +13,7 @@ pub const QUANTILES: [(f64, &str); 6] = [
     (0.99999, "99.999"),
 ];
 
-/// Whether so many values carry a quantile: one of them at least lies beyond it.
+/// Returns true if `count` values support a quantile: at least one of them lies beyond it.
 #[must_use]
 pub fn carries(count: u64, quantile: f64) -> bool {
     // A hair less, since 1 − 0.999 is no round number.
@@ -23,7 +23,7 @@ pub fn carries(count: u64, quantile: f64) -> bool {
 /// Percentiles of one stage, ns. Values have three significant digits.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Percentiles {
-    /// How many values there are; of a corrected distribution, those that were added as well.
+    /// Number of values, including those added to a corrected distribution.
     pub count: u64,
     /// The mean.
     pub mean: f64,

@@ -60,12 +60,12 @@ pub struct Interval {
     pub start_s: f64,
     /// Its length, s.
     pub length_s: f64,
-    /// What was recorded, in the order of [`Stage::ALL`].
+    /// Recorded values per stage, in the order of [`Stage::ALL`].
     pub stages: [Counts; Stage::ALL.len()],
 }
 
 impl Interval {
-    /// What was recorded of a stage.
+    /// Returns the recorded values of a stage.
     #[must_use]
     pub fn stage(&self, stage: Stage) -> &Counts {
         &self.stages[stage as usize]
@@ -75,7 +75,7 @@ impl Interval {
 /// A run, or several that were merged.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
-    /// What it is, apart from its histograms.
+    /// Metadata.
     pub facts: Facts,
     /// Its intervals, in the order of time.
     pub intervals: Vec<Interval>,

@@ -1,42 +1,41 @@
-//! Whether a loop was punctual.
+//! Verdict on the timing of a run.
 
 use super::run::Run;
 use crate::servo::Stage;
 use serde::Serialize;
 
-/// The most of a period that a wake-up may be late, by the rule of thumb: a tenth.
+/// Largest wake-up latency by the rule of thumb, in periods: a tenth.
 const LATE_PERIODS: f64 = 0.1;
 
-/// What a run may be at most.
+/// Limits on a run.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Limits {
-    /// From due to written, µs.
+    /// Time from due to written, µs.
     pub max_us: Option<f64>,
     /// Missed periods.
     pub max_missed: Option<u64>,
 }
 
-/// How punctual a run was by the rule of thumb: no period missed, and no wake-up later than a tenth
-/// of a period.
+/// Punctuality by the rule of thumb: no period missed, and no wake-up later than a tenth of a period.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Punctuality {
-    /// Within it.
+    /// Within the rule.
     Punctual,
-    /// No period was missed, but a wake-up was later.
+    /// No period missed, but a late wake-up.
     Late,
-    /// Periods were missed.
+    /// Periods missed.
     Missed,
 }
 
-/// What the measured times say.
+/// Verdict on a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Verdict {
     /// By the rule of thumb.
     pub punctuality: Punctuality,
-    /// Periods that were missed.
+    /// Missed periods.
     pub missed: u64,
-    /// Periods that passed.
+    /// Elapsed periods.
     pub periods: u64,
     /// The latest wake-up, ns.
     pub latest_wakeup_ns: u64,

@@ -3,10 +3,10 @@
 use crate::servo::{Record, Stage};
 use serde::{Deserialize, Serialize};
 
-/// How many are kept.
+/// Number of worst ticks kept.
 pub const WORST: usize = 10;
 
-/// One of the worst ticks: those whose force came latest after the tick was due.
+/// A worst tick: among those with the longest time from due to written.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct WorstTick {
     /// Period since the loop began.

@@ -11,7 +11,7 @@ pub enum ProfileError {
     Read {
         /// The file.
         file: String,
-        /// What the system said.
+        /// Error of the system.
         cause: std::io::Error,
     },
     /// It is not TOML, or has other keys.
@@ -29,7 +29,7 @@ pub enum ProfileError {
         file: String,
         /// Dotted name.
         field: &'static str,
-        /// What was found.
+        /// Value found.
         value: f32,
         /// The smallest value.
         min: f32,
@@ -43,7 +43,7 @@ pub enum ProfileError {
     UnknownField {
         /// The file.
         file: String,
-        /// What was found.
+        /// Name found.
         name: String,
     },
     /// A filter that cannot be used.
@@ -57,7 +57,7 @@ pub enum ProfileError {
 }
 
 impl ProfileError {
-    /// What to do about it.
+    /// Returns a remedy for the user.
     #[must_use]
     pub fn remedy(&self) -> &'static str {
         match self {

@@ -1,9 +1,9 @@
-//! How a device answers a force: limits, mechanics, delay, and a filter that evens out its response.
+//! Response of a device to a force: limits, mechanics, delay, and a filter that equalises it.
 //!
-//! A profile is a TOML file. Two devices do not feel alike: the same force gives another
-//! acceleration at the tip. [`response::estimate`] measures it from a commanded force and an
-//! acceleration, and [`compensation::design`] derives a short filter from it, so that one texture has
-//! the same acceleration spectrum on both.
+//! A profile is a TOML file. Two devices do not feel alike: the same force produces different
+//! accelerations at the tip. [`response::estimate`] estimates the response from a commanded force
+//! and an acceleration, and [`compensation::design`] derives a short filter from it, so that a
+//! texture has the same acceleration spectrum on both.
 
 pub mod compensation;
 mod error;
@@ -40,10 +40,10 @@ pub const FIELDS: [&str; 9] = [
 pub struct Profile {
     /// Name, for reports.
     pub name: String,
-    /// Dotted names of the fields whose values nobody has confirmed on a device.
+    /// Dotted names of the fields with values unconfirmed on a device.
     #[serde(default)]
     pub unconfirmed: Vec<String>,
-    /// What the device can bear.
+    /// Limits of the force.
     pub limits: ForceLimits,
     /// Mass, damping, friction, counts.
     pub mechanics: Mechanics,
@@ -54,7 +54,7 @@ pub struct Profile {
     pub compensation: Option<Compensation>,
 }
 
-/// What a device can bear.
+/// Force limits of a device.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ForceLimits {
@@ -76,7 +76,7 @@ pub struct Mechanics {
     pub damping_n_s_m: f32,
     /// Coulomb friction, N.
     pub coulomb_n: f32,
-    /// One count of position, mm; 0 if positions are not quantised.
+    /// Position resolution, mm; 0 for unquantised positions.
     pub position_step_mm: f32,
 }
 

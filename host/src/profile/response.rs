@@ -87,7 +87,7 @@ pub enum ResponseError {
 }
 
 impl ResponseError {
-    /// What to do about it.
+    /// Returns a remedy for the user.
     #[must_use]
     pub fn remedy(&self) -> &'static str {
         "record the whole sweep, with the force and the acceleration of every period in one row"

@@ -109,7 +109,7 @@ mod system {
 #[derive(Debug, Clone, Default)]
 pub struct Virtual {
     now_ns: Arc<AtomicU64>,
-    /// How late a sleep ends, ns.
+    /// Wake-up latency, ns.
     late_ns: Arc<AtomicU64>,
 }
 
@@ -125,7 +125,7 @@ impl Virtual {
         self.now_ns.fetch_add(ns, Relaxed);
     }
 
-    /// How late every sleep ends from now on, ns.
+    /// Sets the wake-up latency of every sleep from now on, ns.
     pub fn wake_late_by(&self, ns: u64) {
         self.late_ns.store(ns, Relaxed);
     }

@@ -1,26 +1,26 @@
-//! What a servo loop tells once, apart from its records.
+//! Events of a servo loop, each reported once, apart from its records.
 
 use crate::device::{DeviceError, supervised};
 
-/// What a servo loop tells once, apart from its records.
+/// An event of a servo loop, reported once, apart from its records.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Event {
-    /// The device began to fail.
+    /// The device started to fail.
     Failed {
         /// Period since the loop began.
         period: u64,
         /// The first fault.
         fault: DeviceError,
     },
-    /// The device answers again.
+    /// The device recovered.
     Back {
         /// Period since the loop began.
         period: u64,
         /// Ticks with a fault.
         faulty_ticks: u64,
     },
-    /// A recovery was tried and failed.
+    /// A recovery failed.
     NotRecovered {
         /// Period since the loop began.
         period: u64,
@@ -30,7 +30,7 @@ pub enum Event {
 }
 
 impl Event {
-    /// What the supervision of a device reports in a period.
+    /// Converts a report of the supervision in a period.
     pub(super) fn of(report: supervised::Report, period: u64) -> Self {
         match report {
             supervised::Report::Began(fault) => Self::Failed { period, fault },

@@ -1,8 +1,8 @@
-//! What a device said last, for the records: its supervision passes on samples alone.
+//! Device wrapper that keeps the last reading for the records: supervision passes on samples alone.
 
 use crate::device::{Description, Device, DeviceError, Reading};
 
-/// A device, and what it said last.
+/// A device and its last reading.
 #[derive(Debug)]
 pub(super) struct Heard<'d, D: ?Sized> {
     device: &'d mut D,
@@ -17,7 +17,7 @@ impl<'d, D: ?Sized> Heard<'d, D> {
         }
     }
 
-    /// What the last reading said.
+    /// Returns the last reading.
     pub(super) fn last(&self) -> Result<Reading, DeviceError> {
         self.last
     }

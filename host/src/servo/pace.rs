@@ -1,8 +1,8 @@
-//! How many periods lie between two readings of a device.
+//! Periods between two readings of a device.
 
 use std::sync::Arc;
 
-/// What says how many periods lie between two readings.
+/// Source of the number of periods between two readings.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum Pace {
     /// The clock: a device moves on while periods are missed.
@@ -15,7 +15,7 @@ pub enum Pace {
     Recorded {
         /// Periods from the reading before to each reading.
         periods: Arc<[u32]>,
-        /// Whether the device begins again after its last reading.
+        /// True if the device starts over after its last reading.
         repeats: bool,
     },
 }
@@ -35,7 +35,7 @@ impl Pace {
         }
     }
 
-    /// Whether a device is at its end after so many readings.
+    /// Returns true if a device is at its end after this many readings.
     pub(super) fn is_over(&self, readings: u64) -> bool {
         match self {
             Self::Recorded {

@@ -51,7 +51,7 @@ pub struct ServoLoop<'d, D: ?Sized, R, C, O> {
     owed: u64,
 }
 
-/// How a tick ended.
+/// Outcome of a tick.
 struct Ticked {
     force_is_zero: bool,
     reached: bool,
@@ -139,7 +139,7 @@ impl<'d, D: Device + ?Sized, R: Render, C: Clock, O: Observer> ServoLoop<'d, D, 
         self.device.write([0.0; 3]).is_ok() && self.device.held_n() == [0.0; 3]
     }
 
-    /// One period. `sample` is given in place of what the device says.
+    /// Runs one period. `sample` replaces the device's sample, if given.
     #[inline]
     fn tick(&mut self, sample: Option<Sample>) -> Ticked {
         // Of a tick that comes after missed ones, the time for which the loop slept.

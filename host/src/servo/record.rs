@@ -1,4 +1,4 @@
-//! What a tick leaves behind, and who takes it.
+//! Record of a tick, and its observer.
 
 use super::{event::Event, times::Times};
 use crate::device::{DeviceError, Reading};
@@ -7,23 +7,23 @@ use asperity_runtime::{Output, Sample};
 /// Everything about one tick.
 #[derive(Debug, Clone, Copy)]
 pub struct Record {
-    /// Ticks since the loop began; a record that is lost on the way leaves a gap.
+    /// Ticks since the loop began; a lost record leaves a gap.
     pub tick: u64,
-    /// Period since the loop began; ticks that were missed leave gaps.
+    /// Periods since the loop began; missed ticks leave gaps.
     pub period: u64,
-    /// Periods that were missed just before this tick.
+    /// Periods missed just before this tick.
     pub missed: u64,
     /// When each stage ended.
     pub times: Times,
-    /// What the device said; a position that no hand can have is [`DeviceError::Garbled`].
+    /// Reading of the device; an implausible position is [`DeviceError::Garbled`].
     pub reading: Result<Reading, DeviceError>,
-    /// What the runtime was given.
+    /// Input to the runtime.
     pub sample: Sample,
-    /// What the runtime answered.
+    /// Output of the runtime.
     pub output: Output,
-    /// How often another texture has begun to play, up to this tick.
+    /// Texture exchanges up to this tick.
     pub exchanges: u32,
-    /// Whether the force reached the device.
+    /// Result of writing the force.
     pub written: Result<(), DeviceError>,
 }
 

@@ -83,7 +83,7 @@ impl RecordReader {
         self.lost.load(Relaxed)
     }
 
-    /// Whether the servo thread has let go of its end and everything was taken.
+    /// Returns true if the servo thread has dropped its end and the queues are drained.
     #[must_use]
     pub fn is_over(&self) -> bool {
         self.records.is_abandoned() && self.records.is_empty() && self.events.is_empty()

@@ -36,7 +36,7 @@ impl Recovery {
         }
     }
 
-    /// Whether a try is due.
+    /// Returns true if a recovery is due.
     pub(super) fn is_due(&self, now_ns: u64) -> bool {
         self.run > self.patience_ticks && now_ns >= self.next_try_ns
     }

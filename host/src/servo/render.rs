@@ -1,27 +1,27 @@
-//! What answers a sample with a force.
+//! Renderers for a servo loop: sample in, output out.
 
 use asperity_runtime::{
     Config, Counters, Output, Player, Renderer, Sample, Scene, SceneState, State, Texture,
 };
 
-/// Answers one sample with one output, once in a servo period.
+/// Maps a sample to an output, once per servo period.
 pub trait Render {
-    /// One tick. It neither allocates, locks nor prints.
+    /// Renders a tick. It neither allocates, locks nor prints.
     fn tick(&mut self, sample: &Sample) -> Output;
 
-    /// What the renderer was told: rate and limits of the force.
+    /// Returns the renderer's configuration: rate and limits of the force.
     fn config(&self) -> &Config;
 
-    /// What happened since the start.
+    /// Returns the counters since the start.
     fn counters(&self) -> Counters;
 
-    /// How often another texture has begun to play.
+    /// Returns the number of texture exchanges.
     fn exchanges(&self) -> u32 {
         0
     }
 }
 
-/// One texture, which may be exchanged for another while the loop runs.
+/// A texture that may be exchanged for another while the loop runs.
 pub struct SwappableTexture<'r, 'q, 'a> {
     /// The renderer.
     pub renderer: &'r Renderer,
@@ -31,7 +31,7 @@ pub struct SwappableTexture<'r, 'q, 'a> {
 }
 
 impl<'r, 'q, 'a> SwappableTexture<'r, 'q, 'a> {
-    /// What a player plays.
+    /// Renders the texture of a player.
     #[must_use]
     pub fn new(renderer: &'r Renderer, player: Player<'q, 'a>) -> Self {
         Self {
@@ -90,7 +90,7 @@ impl<const N: usize> Render for SceneRender<'_, '_, N> {
     }
 }
 
-/// One texture that stays.
+/// A fixed texture.
 pub struct SingleTexture<'r> {
     /// The renderer.
     pub renderer: &'r Renderer,

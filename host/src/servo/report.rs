@@ -1,4 +1,4 @@
-//! What a servo loop did.
+//! Summary of a servo loop's run.
 
 use asperity_runtime::Counters;
 
@@ -15,7 +15,7 @@ pub enum End {
     Rounding,
 }
 
-/// What a servo loop did.
+/// Summary of a servo loop's run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Report {
     /// Why it ended.
@@ -24,7 +24,7 @@ pub struct Report {
     pub ticks: u64,
     /// Periods without a tick of their own time: skipped, or made up for later.
     pub missed: u64,
-    /// Those that were made up for.
+    /// Missed periods made up for.
     pub caught_up: u64,
     /// Periods without a tick because a recovery was under way.
     pub paused: u64,
@@ -34,9 +34,9 @@ pub struct Report {
     pub read_faults: u64,
     /// Ticks in which writing failed.
     pub write_faults: u64,
-    /// Recoveries that were tried.
+    /// Attempted recoveries.
     pub recoveries: u64,
-    /// Those after which the device was back.
+    /// Successful recoveries.
     pub recovered: u64,
     /// Faults of the device, each counted once however long it lasted.
     pub episodes: u64,

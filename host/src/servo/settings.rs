@@ -1,21 +1,21 @@
-//! How a servo loop runs.
+//! Settings of a servo loop.
 
 use super::pace::Pace;
 use asperity_runtime::math::rounds_to_nearest;
 use std::ops::RangeInclusive;
 use thiserror::Error;
 
-/// Rates that a servo loop takes, Hz.
+/// Valid rates of a servo loop, Hz.
 pub const RATES_HZ: RangeInclusive<u32> = 250..=10_000;
 
-/// What a loop does when periods were missed.
+/// Policy for missed periods.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Overrun {
     /// Missed periods are skipped; the next sample says how many passed. The loop stays in phase.
     #[default]
     Skip,
-    /// Missed periods are made up for, one tick right after the other, at most as many as fit a
-    /// tenth of a second; older ones are skipped.
+    /// Missed periods are made up for by back-to-back ticks, at most a tenth of a second; older
+    /// ones are skipped.
     CatchUp,
     /// The loop ends: force to zero, device released.
     Stop,
@@ -36,18 +36,18 @@ impl Overrun {
     }
 }
 
-/// How a servo loop runs.
+/// Settings of a servo loop.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
-    /// Ticks a second, Hz.
+    /// Tick rate, Hz.
     pub rate_hz: u32,
-    /// What happens when periods were missed.
+    /// Policy for missed periods.
     pub overrun: Overrun,
-    /// Ends by itself after so many periods.
+    /// Number of periods after which it ends; unlimited without it.
     pub periods: Option<u64>,
     /// When the first tick is due on the loop's clock, ns; a period after the start without it.
     pub start_ns: Option<u64>,
-    /// How many periods lie between two readings.
+    /// Source of the number of periods between two readings.
     pub pace: Pace,
 }
 

@@ -18,19 +18,19 @@ use std::thread::{Builder, Scope, ScopedJoinHandle};
 /// Stack of the servo thread, bytes; all of it is touched before the loop begins.
 const STACK_BYTES: usize = 1 << 20;
 
-/// What a servo thread begins with.
+/// Arguments of a servo thread.
 pub struct Start<'s, R, O> {
     /// The device; it is given back when the thread ends.
     pub device: &'s mut dyn Device,
-    /// What renders its samples.
+    /// Renderer of its samples.
     pub render: R,
-    /// Who looks on.
+    /// Observer of its records.
     pub observer: O,
-    /// The loop.
+    /// Settings of the loop.
     pub settings: Settings,
     /// The clock, which may spin.
     pub clock: Monotonic,
-    /// What the system is asked for.
+    /// Requested privileges.
     pub wanted: Wanted,
     /// Set to end the loop.
     pub stop: &'s AtomicBool,
@@ -76,13 +76,13 @@ impl<'scope> Servo<'scope> {
         Ok(Self { thread, grants })
     }
 
-    /// What the system granted and refused; waits until the thread has asked.
+    /// Returns the granted and refused privileges; blocks until the thread has requested them.
     #[must_use]
     pub fn grants(&self) -> Vec<Grant> {
         self.grants.recv().unwrap_or_default()
     }
 
-    /// Whether the loop has ended.
+    /// Returns true if the loop has ended.
     #[must_use]
     pub fn is_finished(&self) -> bool {
         self.thread.is_finished()

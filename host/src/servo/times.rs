@@ -69,7 +69,7 @@ pub struct Times {
 }
 
 impl Times {
-    /// How long a stage lasted, ns; `None` for the interval of the first tick.
+    /// Returns the duration of a stage, ns; `None` for the interval of the first tick.
     #[must_use]
     pub fn of(&self, stage: Stage) -> Option<u64> {
         Some(match stage {

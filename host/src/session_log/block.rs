@@ -2,7 +2,7 @@
 
 use std::io::{self, Read, Write};
 
-/// What a block holds.
+/// Kind of a block's content.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     /// Conditions, as JSON.
@@ -13,7 +13,7 @@ pub(super) enum Kind {
     Texture,
     /// The end of a whole recording.
     End,
-    /// Of a later version; skipped.
+    /// A kind of a later version; skipped.
     Unknown,
 }
 
@@ -42,14 +42,14 @@ pub(super) fn write(to: &mut impl Write, kind: Kind, body: &[u8]) -> io::Result<
     to.write_all(&bytes)
 }
 
-/// What the next bytes are.
+/// Result of reading the next block.
 #[derive(Debug)]
 pub(super) enum Next {
     /// A whole block.
     Block(Kind, Vec<u8>),
     /// The end of the file, between blocks.
     End,
-    /// A part of a block, or a damaged one.
+    /// A truncated or damaged block.
     Broken(&'static str),
 }
 

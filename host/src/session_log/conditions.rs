@@ -1,4 +1,4 @@
-//! What a recording says about itself: enough to render it again.
+//! Metadata of a recording, sufficient to render it again.
 
 use asperity_formats::Solid;
 use asperity_runtime::{
@@ -6,20 +6,20 @@ use asperity_runtime::{
 };
 use serde::{Deserialize, Serialize};
 
-/// Which asset, or which library of a scene, played.
+/// Identity of the asset, or of a scene's library, that played.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TextureInfo {
-    /// Name for people.
+    /// Display name.
     pub name: String,
     /// CRC-32 of all its bytes.
     pub crc32: u32,
-    /// How many bytes it has.
+    /// Length, bytes.
     pub bytes: u64,
 }
 
 impl TextureInfo {
-    /// What identifies an asset or a library.
+    /// Returns the identity of an asset or a library.
     #[must_use]
     pub fn of(name: impl Into<String>, asset: &[u8]) -> Self {
         Self {
@@ -29,7 +29,7 @@ impl TextureInfo {
         }
     }
 
-    /// Whether these are the bytes that played.
+    /// Returns true if these are the bytes that played.
     #[must_use]
     pub fn is(&self, asset: &[u8]) -> bool {
         self.bytes == asset.len() as u64 && self.crc32 == crc32fast::hash(asset)
@@ -51,7 +51,7 @@ pub struct Conditions {
     pub scene: Option<TextureInfo>,
     /// Seed of the excitation.
     pub seed: u64,
-    /// What the renderer was told, servo rate included.
+    /// Configuration of the renderer, servo rate included.
     #[serde(with = "ConfigFields")]
     pub config: Config,
 }

@@ -1,25 +1,25 @@
-//! What is recorded of a tick.
+//! Recorded data of a tick.
 
 use asperity_runtime::{Output, Sample};
 
 use crate::device::DeviceError;
 
-/// One tick: what went into the renderer, and what came out.
+/// A tick: input and output of the renderer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Entry {
-    /// What the renderer was given. A position that is not finite keeps its bits.
+    /// Input of the renderer. A position that is not finite keeps its bits.
     pub sample: Sample,
-    /// What the renderer answered, N.
+    /// Force of the renderer, N.
     pub force_n: [f32; 3],
     /// Bits of the output's flags.
     pub flags: u16,
     /// Buttons that were held.
     pub buttons: u32,
-    /// Why the device gave nothing in this period.
+    /// Fault of the reading in this period.
     pub read_fault: Option<DeviceError>,
-    /// Why the force did not reach the device in this period.
+    /// Fault of the write in this period.
     pub write_fault: Option<DeviceError>,
-    /// Whether the next texture that was announced began to play in this tick.
+    /// True if the next announced texture began to play in this tick.
     pub next_texture: bool,
     /// Ticks before this one that were not recorded, since the queue was full.
     pub lost_before: u32,
@@ -41,7 +41,7 @@ impl Entry {
         }
     }
 
-    /// Whether two entries have the same bits, NaN included.
+    /// Returns true if two entries are bit-identical, NaN included.
     #[must_use]
     pub fn has_bits_of(&self, other: &Self) -> bool {
         let bits = |v: [f32; 3]| v.map(f32::to_bits);

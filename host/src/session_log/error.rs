@@ -26,7 +26,7 @@ pub enum SessionLogError {
     /// The file ends, or is damaged, before the conditions are complete.
     #[error("the conditions of this recording are damaged: {why}")]
     Conditions {
-        /// What is wrong.
+        /// Reason.
         why: String,
     },
     /// A block whose checksum is right, but not its contents.
@@ -34,7 +34,7 @@ pub enum SessionLogError {
     Malformed {
         /// Where the block begins.
         at: u64,
-        /// What is wrong.
+        /// Description of the defect.
         why: &'static str,
     },
     /// The thread that writes has ended before its time.
@@ -43,7 +43,7 @@ pub enum SessionLogError {
 }
 
 impl SessionLogError {
-    /// What to do about it.
+    /// Returns a remedy for the user.
     #[must_use]
     pub fn remedy(&self) -> &'static str {
         match self {

@@ -19,7 +19,7 @@ const PER_BLOCK: usize = 250;
 /// a damaged or foreign file may hold one in every two bytes.
 pub const MAX_TICKS: usize = 6_000_000;
 
-/// What was written.
+/// Summary of a written file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Summary {
     /// Ticks in the file.
@@ -113,16 +113,16 @@ impl<W: Write> Encoder<W> {
     }
 }
 
-/// How a file ends.
+/// End of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Ending {
-    /// It is whole.
+    /// Complete.
     Whole(Summary),
-    /// It was cut or damaged; what stands before is read.
+    /// Truncated or damaged; everything before is read.
     Cut {
-        /// Bytes that were read.
+        /// Valid bytes before it.
         at: u64,
-        /// What is wrong there.
+        /// Description of the defect.
         why: &'static str,
     },
 }
@@ -136,7 +136,7 @@ pub struct SessionLog {
     pub textures: Vec<TextureInfo>,
     /// Every tick.
     pub entries: Vec<Entry>,
-    /// How the file ends.
+    /// End of the file.
     pub ending: Ending,
 }
 

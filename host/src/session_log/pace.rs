@@ -1,4 +1,4 @@
-//! How many periods lie between the readings of a recording, for a servo loop that plays it.
+//! Periods between the readings of a recording, for a servo loop that plays it.
 
 use super::{Entry, SessionLog};
 use crate::servo::Pace;

@@ -22,7 +22,7 @@ const READ_FAULT: u16 = 1 << 11;
 const WRITE_FAULT: u16 = 1 << 12;
 const KNOWN: u16 = (1 << 13) - 1;
 
-/// What a record's values are compared with.
+/// Previous values, the base of delta encoding.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Before {
     position: [u32; 3],

@@ -9,16 +9,16 @@ use std::time::{Duration, Instant};
 
 use super::{Conditions, Encoder, Entry, SessionLogError, Summary, TextureInfo};
 
-/// How often the writing thread looks into the queue.
+/// Poll interval of the writing thread.
 const LOOK: Duration = Duration::from_millis(2);
-/// How long ticks wait for a full block.
+/// Longest time that ticks wait for a full block.
 const PATIENCE: Duration = Duration::from_millis(500);
 
 /// The servo thread's end.
 #[derive(Debug)]
 pub struct Recorder {
     queue: rtrb::Producer<Entry>,
-    /// Ticks that were lost since the last one that was not.
+    /// Ticks lost since the last recorded one.
     lost: u32,
     all_lost: Arc<AtomicU64>,
 }

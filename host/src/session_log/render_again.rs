@@ -11,15 +11,15 @@ use super::{SessionLog, TextureInfo};
 /// The first tick whose force differs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Difference {
-    /// Which entry.
+    /// Index of the entry.
     pub entry: usize,
-    /// What was recorded, N.
+    /// Recorded force, N.
     pub recorded_n: [f32; 3],
-    /// What was rendered now, N.
+    /// Force as rendered again, N.
     pub rendered_n: [f32; 3],
 }
 
-/// How a recording compares with its rendering.
+/// Comparison of a recording with its new rendering.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Comparison {
     /// Ticks that were compared: all up to the first that was lost.
@@ -33,7 +33,7 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Whether every tick of the recording was compared, and none differs.
+    /// Returns true if every tick of the recording was compared and none differs.
     #[must_use]
     pub fn is_same(&self) -> bool {
         self.different == 0 && self.not_compared == 0
@@ -55,13 +55,13 @@ pub enum RenderAgainError {
     Asset {
         /// Its name.
         name: String,
-        /// What is wrong.
+        /// Reason.
         why: String,
     },
     /// A texture began that was never announced.
     #[error("entry {entry} begins a texture that the recording does not name")]
     Unannounced {
-        /// Which entry.
+        /// Index of the entry.
         entry: usize,
     },
     /// The conditions hold an impossible configuration.

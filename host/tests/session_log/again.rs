@@ -1,4 +1,4 @@
-//! What was felt is felt again to the bit.
+//! Sessions rendered again are bit-identical.
 
 use asperity_host::session_log::{Comparison, Ending, TextureInfo, render_again, start};
 

@@ -20,12 +20,12 @@ pub(crate) fn texture(rate_hz: f32) -> (Box<HostTexture>, Renderer) {
     (texture, Renderer::new(&config).expect("the default"))
 }
 
-/// What a device does in one call of `read` or `write`.
+/// Behaviour of a device in a call of `read` or `write`.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Act {
     /// Time that the call takes, ns.
     pub(crate) takes_ns: u64,
-    /// What it fails with.
+    /// Error of the call.
     pub(crate) fault: Option<DeviceError>,
     /// Nothing new.
     pub(crate) old: bool,
@@ -42,7 +42,7 @@ pub(crate) struct Scripted<F, G> {
     pub(crate) recoveries: Vec<Result<(), DeviceError>>,
     /// Time that a recovery takes, ns.
     pub(crate) recovery_ns: u64,
-    /// Whether a recovery brings it back.
+    /// True if a recovery succeeds.
     pub(crate) recovers: bool,
     description: Description,
 }

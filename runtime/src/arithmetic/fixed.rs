@@ -81,7 +81,7 @@ pub(crate) fn wide<F: Point, G: Point>(a: FixedI32<F>, b: FixedI32<G>) -> i64 {
     i64::from(a.to_bits()) * i64::from(b.to_bits())
 }
 
-/// How far a product with points F and G is shifted to get point H, in bits.
+/// Right shift that takes a product of numbers with points F and G to point H, bits.
 pub(crate) const fn shift<F: Point, G: Point, H: Point>() -> i32 {
     F::I32 + G::I32 - H::I32
 }

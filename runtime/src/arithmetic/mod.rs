@@ -1,10 +1,9 @@
-//! What a tick computes with: [`Float`], or [`Fixed`] point for processors without an FPU.
+//! Arithmetic of a tick: [`Float`], or [`Fixed`] point for processors without an FPU.
 //!
-//! [`Arithmetic`] is what every stage needs: a dozen operations on single numbers and on four
-//! side by side. An operation that one stage alone needs is a small trait beside that stage, with
-//! an implementation for each arithmetic; [`RenderArithmetic`](crate::RenderArithmetic) is all of
-//! them together. A number here has a binary point but no unit: stages compute with
-//! [quantities](crate::quantity).
+//! [`Arithmetic`] holds what every stage needs: a dozen scalar operations and their four-lane
+//! counterparts. An operation of a single stage is a small trait beside that stage, implemented for
+//! each arithmetic; [`RenderArithmetic`](crate::RenderArithmetic) is the union of them. A number
+//! here has a binary point but no unit: stages compute with [quantities](crate::quantity).
 
 pub(crate) mod fixed;
 pub(crate) mod float;

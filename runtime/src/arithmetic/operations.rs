@@ -21,14 +21,14 @@ pub enum Cut {
 /// `F`, `G` and `H` are binary points; a product of numbers with points F and G is rounded once,
 /// to H. Four numbers side by side are a register where the processor has such.
 pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
-    /// One number.
+    /// Scalar type.
     type Scalar<F: Point>: Scalar;
-    /// Four numbers.
+    /// Four-lane vector type.
     type Four<F: Point>: Zero + Add<Output = Self::Four<F>> + Sub<Output = Self::Four<F>>;
-    /// Three numbers as a state keeps them.
+    /// Storage type of three numbers in a state.
     type Three<F: Point>: Zero;
 
-    /// Whether registers hold four numbers; elsewhere long work costs less lane by lane.
+    /// True if four lanes fit a register; without one, long work is cheaper lane by lane.
     const IN_REGISTERS: bool;
 
     /// A whole number.
@@ -98,6 +98,6 @@ pub trait Arithmetic: Copy + Debug + Default + PartialEq + 'static {
     /// [`Arithmetic::settled`] of each.
     fn four_settled<F: Point>(a: Self::Four<F>, grid: f32) -> Self::Four<F>;
 
-    /// Whether none of the four is beyond ±`limit`, or NaN.
+    /// Returns true if all four lanes are within ±`limit`; false for NaN.
     fn is_within<F: Point>(a: Self::Four<F>, limit: Self::Scalar<F>) -> bool;
 }

@@ -1,4 +1,4 @@
-//! One number of an arithmetic, as callers see it.
+//! Scalar of an arithmetic, as callers see it.
 
 use core::{
     fmt::Debug,
@@ -6,7 +6,7 @@ use core::{
 };
 use fixed::types::extra::LeEqU32;
 
-/// A binary point: how many bits stand behind it. Floats ignore it.
+/// A binary point, as the number of fractional bits. Floats ignore it.
 pub trait Point: LeEqU32 + Copy + Debug + Default + PartialEq + 'static {}
 
 impl<P: LeEqU32 + Copy + Debug + Default + PartialEq + 'static> Point for P {}
@@ -29,7 +29,7 @@ impl Zero for u8 {
     const ZERO: Self = 0;
 }
 
-/// One number: an `f32`, or a `FixedI32`.
+/// A scalar: an `f32`, or a `FixedI32`.
 pub trait Scalar:
     Zero + Default + PartialOrd + Add<Output = Self> + Sub<Output = Self> + Neg<Output = Self>
 {
@@ -50,7 +50,7 @@ pub trait Scalar:
     /// The number of these bits.
     fn from_bits(bits: u32) -> Self;
 
-    /// Whether `value` lies in the range.
+    /// Returns true if `value` lies in the range.
     fn holds(value: f32) -> bool;
 
     /// The sum, or the end of the range beyond it.

@@ -17,17 +17,17 @@ pub struct Config {
     pub velocity_cutoff_hz: f32,
     /// Cut-off of the normal velocity that the wall's damping sees, Hz.
     pub normal_cutoff_hz: f32,
-    /// What is touched.
+    /// The solid to touch.
     pub solid: Solid,
-    /// Along which tangent the vibration acts.
+    /// Tangent along which the vibration acts.
     pub vibration_axis: VibrationAxis,
-    /// What the device can bear.
+    /// Limits of the device's force.
     pub limits: Limits,
     /// Tap detection.
     pub tap: TapConfig,
     /// Bristle friction.
     pub friction: FrictionConfig,
-    /// What the device's own mechanics absorb, which decides how stiff a wall may be.
+    /// Damping, friction and delay of the device, which bound the stiffness of a wall.
     pub mechanics: MechanicsConfig,
     /// Bad samples and recovery.
     pub safety: SafetyConfig,
@@ -79,8 +79,8 @@ pub struct FrictionConfig {
     pub leak_speed_m_s: f32,
 }
 
-/// What the device absorbs by itself, and how late its force acts: the sampled wall must not give
-/// off more ([`passivity`](crate::stage::passivity)).
+/// Dissipation and delay of the device itself: an upper bound for the energy that the sampled wall
+/// may generate ([`passivity`](crate::stage::passivity)).
 ///
 /// The default is a 3D Systems Touch, all of it unconfirmed on a device: 0.26 N of back-drive
 /// friction as published, 0.1 N·s/m assumed, no delay beyond the hold of one period.
@@ -93,7 +93,7 @@ pub struct MechanicsConfig {
     /// Speed V up to which that friction counts as damping f_c/V, m/s. The default is the
     /// fastest tap of the corpus.
     pub fastest_m_s: f32,
-    /// One count Δ of position, m; 0 if positions are not quantised.
+    /// Position resolution Δ, m; 0 for unquantised positions.
     pub position_step_m: f32,
     /// Whole periods between a force and its effect, on top of the hold of one. Add two for a loop
     /// that may lose two samples in a row.

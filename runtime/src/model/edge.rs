@@ -39,7 +39,7 @@ impl<A: Arithmetic> Extent<A> {
         [self.max_speed.value(), self.max_force.value()]
     }
 
-    /// Whether a query lies outside, or is NaN.
+    /// Returns true if a query lies outside, or is NaN.
     #[inline]
     pub(crate) fn is_outside(
         &self,

@@ -50,8 +50,7 @@ impl<A: Arithmetic> Model<A> {
     };
 }
 
-/// One model: what [`Texture::filter_at`](crate::Texture::filter_at) gives for a
-/// speed and a force.
+/// An ARMA model at a speed and a force, as [`Texture::filter_at`](crate::Texture::filter_at) returns it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Filter {
     /// a_1..a_24 of A(z) = 1 + Σ a_k z⁻ᵏ, zeros above the order.

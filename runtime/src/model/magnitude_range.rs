@@ -43,8 +43,8 @@ pub(crate) struct MagnitudeRange {
 }
 
 impl MagnitudeRange {
-    /// Of the A(z) of these line spectral frequencies, as −2 cos ω in the order of
-    /// [`place`](super::lsf_to_ar::place).
+    /// Computes the range of A(z) from its line spectral frequencies, given as −2 cos ω in the
+    /// order of [`place`](super::lsf_to_ar::place).
     pub(crate) fn of(lines: &[f32]) -> Self {
         // A simple zero at z = 1 has −2 cos ω = −2, one at z = −1 has 2.
         let (of_sum, of_difference): (&[f32], &[f32]) = if lines.len().is_multiple_of(2) {

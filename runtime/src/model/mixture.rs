@@ -81,7 +81,7 @@ impl RowMixture for Fixed {
     }
 }
 
-/// What is mixed, one row a vertex.
+/// Model parameters to mix, a row per vertex.
 #[derive(Debug, Clone)]
 #[cfg_attr(not(target_arch = "arm"), repr(align(16)))]
 pub(crate) struct Vertices<S: Capacity, A: Arithmetic> {

@@ -21,7 +21,7 @@ use core::{
 /// symmetry leaves. The first coefficient is ½ itself.
 pub(super) struct Products<'a, A>(&'a mut Scratch, PhantomData<A>);
 
-/// One of these products: every fourth number.
+/// A single lane of the products, at a stride of four.
 pub(super) struct Lane<'a, A>(&'a mut [u32; LANES * (ROWS - 1) + 1], PhantomData<A>);
 
 impl<'a, A: SectionProduct> Products<'a, A> {
@@ -32,7 +32,7 @@ impl<'a, A: SectionProduct> Products<'a, A> {
 }
 
 impl<'a, A: SectionProduct> Lane<'a, A> {
-    /// One polynomial by itself.
+    /// Returns the lane of a single polynomial.
     #[inline(always)]
     pub(super) fn of(scratch: &'a mut Scratch, polynomial: usize) -> Option<Self> {
         let from = scratch.0.as_flattened_mut().get_mut(polynomial..)?;

@@ -82,7 +82,7 @@ impl<A: Arithmetic, U: Unit> Four<A, U> {
         Self::load(&numbers.map(A::whole))
     }
 
-    /// One quantity four times.
+    /// Broadcasts a quantity to all four lanes.
     #[inline(always)]
     #[must_use]
     pub fn splat(number: Quantity<A, U>) -> Self {
@@ -96,7 +96,7 @@ impl<A: Arithmetic, U: Unit> Four<A, U> {
         A::numbers(self.0)
     }
 
-    /// One of the four.
+    /// Returns a single lane.
     #[inline(always)]
     #[must_use]
     pub fn lane(self, lane: usize) -> Quantity<A, U> {
@@ -139,7 +139,7 @@ impl<A: Arithmetic, U: Unit> Four<A, U> {
         ))
     }
 
-    /// Whether none of the four is beyond ±`limit`, or NaN.
+    /// Returns true if all four lanes are within ±`limit`; false for NaN.
     #[inline(always)]
     #[must_use]
     pub fn is_within(self, limit: Quantity<A, U>) -> bool {

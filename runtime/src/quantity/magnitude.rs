@@ -27,7 +27,7 @@ pub trait Magnitudes: Arithmetic {
     /// The square of the length of the first three.
     fn square<F: Point>(v: Self::Four<F>) -> Self::Square;
 
-    /// Whether a square belongs to more than a nanometre or, in fixed point, to any length.
+    /// Returns true if the length is above a nanometre or, in fixed point, above zero.
     fn is_some(square: Self::Square) -> bool;
 
     /// The magnitude of a square. Its inverse is finite even where there is no length.

@@ -1,4 +1,4 @@
-//! One number with a unit.
+//! Scalar with a unit.
 
 use super::{
     product::{Over, Times},

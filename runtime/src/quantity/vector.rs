@@ -183,7 +183,7 @@ impl<A: Arithmetic, U: Unit> Vector<A, U> {
         Self(A::four_settled(self.0, grid))
     }
 
-    /// Whether no component is beyond ±`limit`, or NaN.
+    /// Returns true if every component is within ±`limit`; false for NaN.
     #[inline(always)]
     #[must_use]
     pub fn is_within(self, limit: Quantity<A, U>) -> bool {

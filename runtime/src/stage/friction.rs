@@ -107,8 +107,8 @@ impl<A: Magnitudes> Friction<A> {
 }
 
 impl<A: Magnitudes> Bristle<A> {
-    /// One tick: `motion` is the displacement since the last one, m, `normal` n̂, `load` F_n, N, 0
-    /// out of contact, and `mu` μ.
+    /// Advances by a tick: `motion` is the displacement since the last one, m, `normal` n̂, `load`
+    /// F_n, N, 0 out of contact, and `mu` μ.
     #[inline(always)]
     pub fn step(
         &self,
@@ -152,7 +152,7 @@ mod tests {
     use super::*;
     use crate::{config::Config, math::norm};
 
-    /// One tick on a plane: the force on the hand, N.
+    /// Advances a tick on a plane and returns the force on the hand, N.
     fn step(
         bristle: &Bristle,
         state: &mut FrictionState,

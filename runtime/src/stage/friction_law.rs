@@ -67,7 +67,7 @@ impl FrictionLaw {
         }
     }
 
-    /// Whether there is a law. The speeds of one ascend, so its last one is above 0.
+    /// Returns true if there is a law. Its speeds ascend, so the last one is above 0.
     #[inline(always)]
     pub(crate) const fn is_some(&self) -> bool {
         self.speeds[MAX_LAW_POINTS - 1] != 0

@@ -24,7 +24,7 @@ pub trait Shortening: Magnitudes {
     /// The square of a length.
     fn square_of<F: Point>(length: Self::Scalar<F>) -> Self::Square;
 
-    /// Whether a square is a number of a plausible size.
+    /// Returns true if a square is a number of a plausible size.
     fn is_sane(square: Self::Square) -> bool;
 
     /// `reach` over the root of `square`, which is no smaller.

@@ -84,8 +84,8 @@ impl InnerProduct for Float {
     }
 }
 
-/// Whether an output is neither too small to matter, nor too large, nor NaN. The bits of positive
-/// floats are in the order of the floats.
+/// Returns true if an output is neither negligible, nor too large, nor NaN. The bits of positive
+/// floats are ordered as the floats.
 #[inline(always)]
 fn is_usual(raw: f32) -> bool {
     const LEAST: u32 = Float::SILENCE_M_S2.to_bits();
@@ -222,7 +222,7 @@ impl Recursion {
 pub struct Sounded<A: Arithmetic> {
     /// y\[n\], m/s².
     pub y: Quantity<A, VibrationAcceleration>,
-    /// Whether it had to be clamped.
+    /// True if y was clamped.
     pub clamped: bool,
 }
 
@@ -238,10 +238,10 @@ impl<A: InnerProduct> History<A> {
         Quantity(self.y.0[usize::from(newest) % LANES])
     }
 
-    /// One sample. `e` is the excitation with its level; `a` and `b` are coefficients of lags 1..,
-    /// zero above the order. With `sounding` false the model is mute, and with `e` zero its history
-    /// fades out within 24 samples. `newest` says where the newest numbers of the history stand; it
-    /// begins with 0. Returns y, m/s², and whether it had to be clamped.
+    /// Computes a sample: y, m/s², and whether it was clamped. `e` is the excitation with its
+    /// level; `a` and `b` are coefficients of lags 1.., zero above the order. With `sounding` false
+    /// the model is mute, and with `e` zero its history fades out within 24 samples. `newest` is
+    /// the index of the newest numbers in the history, initially 0.
     #[inline(always)]
     pub(crate) fn step(
         &mut self,

@@ -18,9 +18,9 @@ use crate::{
     sample::Sample,
 };
 
-/// How far positions reach in an arithmetic.
+/// Range of positions in an arithmetic.
 pub trait Positions: Arithmetic {
-    /// Further away than every position in reach, m.
+    /// A distance beyond every position in reach, m.
     const OUT_OF_REACH_M: f32;
 }
 
@@ -37,9 +37,9 @@ impl Positions for Fixed {
 pub struct Gate<A: Arithmetic = Float> {
     /// Bad samples in a row that hold the last good one.
     hold_ticks: u32,
-    /// A coordinate beyond this, m, is an error and no position.
+    /// Largest valid magnitude of a coordinate, m.
     reach: Quantity<A, Metre>,
-    /// How much of the gain comes back in a tick.
+    /// Recovery of the gain per tick.
     ramp: Quantity<A, Gain>,
 }
 
@@ -49,11 +49,11 @@ pub struct GateState<A: Arithmetic = Float> {
     position: StoredVector<A, Metre>,
     /// Bad samples in a row. After more than are held, motion starts anew with the next good one.
     bad_in_a_row: u32,
-    /// The part of the force that is let through, 0 to 1.
+    /// Gain on the force, 0 to 1.
     gain: Quantity<A, Gain>,
 }
 
-/// What the gate lets through.
+/// Output of the gate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gated<A: Arithmetic = Float> {
     /// Position to render, m.
@@ -62,10 +62,9 @@ pub struct Gated<A: Arithmetic = Float> {
     pub motion: Vector<A, Metre>,
     /// Periods since the last rendered position, 1 to 3.
     pub elapsed_ticks: u32,
-    /// The part of the force that is let through, 0 to 1.
+    /// Gain on the force, 0 to 1.
     pub gain: Quantity<A, Gain>,
-    /// What happened: held sample, safe state, ramp. Restart, bad sample and fault are for the
-    /// other stages.
+    /// Events: held sample, safe state and ramp; restart, bad sample and fault for the other stages.
     pub flags: Flags,
 }
 
@@ -105,14 +104,14 @@ impl<A: Positions> Gate<A> {
         }
     }
 
-    /// Whether a sample holds a usable position.
+    /// Returns true if a sample holds a usable position.
     #[inline(always)]
     pub(crate) fn is_usable(&self, sample: &Sample<A>) -> bool {
         let position = Vector::<A, Metre>::load(sample.position_m);
         position.is_within(self.reach) & (sample.elapsed_ticks > 0)
     }
 
-    /// One sample.
+    /// Passes a sample through the gate.
     #[inline]
     pub fn step(&self, state: &mut GateState<A>, sample: &Sample<A>) -> Gated<A> {
         let position = Vector::load(sample.position_m);

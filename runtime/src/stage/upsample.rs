@@ -260,8 +260,8 @@ mod tests {
         }
     }
 
-    /// What the coefficients say is what a step does: a tone that enters once a sample comes out
-    /// with the gain of its frequency.
+    /// The step has the frequency response of its coefficients: a tone fed at a sample a model
+    /// period comes out with the gain at its frequency.
     #[test]
     fn a_tone_comes_out_at_its_level() {
         for ticks in [2, 5, 10] {
@@ -311,7 +311,7 @@ mod tests {
         }
     }
 
-    /// One number beyond silence, in any place, keeps all of them.
+    /// A single number above the silence threshold, in any place, keeps all of them.
     #[test]
     fn only_a_state_that_nobody_feels_is_cleared() {
         let silence = Float::SILENCE_M_S2;

@@ -100,7 +100,7 @@ impl<A: InnerProduct> Vibration<A> {
         self.onset = Onset::Begun;
     }
 
-    /// Whether the tick that begins puts a new model to work.
+    /// Returns true if a new model takes effect in the tick that begins.
     #[inline]
     pub(crate) fn finishes(&self, plan: &Plan) -> bool {
         self.follower.finishes(plan)
@@ -118,13 +118,13 @@ impl<A: InnerProduct> Vibration<A> {
         last
     }
 
-    /// Whether the texture is the one that was rendered last.
+    /// Returns true if the texture is the last one rendered.
     #[inline]
     pub(crate) const fn is_on(&self, texture: u32) -> bool {
         self.texture == texture
     }
 
-    /// Whether this tick ends with a query.
+    /// Returns true if this tick ends with a query.
     #[inline(always)]
     pub(crate) const fn takes_query(&self) -> bool {
         self.follower.takes_query()
@@ -132,8 +132,8 @@ impl<A: InnerProduct> Vibration<A> {
 }
 
 impl<A: WeightSearch + RowMixture + SectionProduct + GaussianCubic + InnerProduct> Vibration<A> {
-    /// One tick by itself: the slice of the cycle, the output and, where it is due, the query. The
-    /// line spectrum goes a `fraction` of its way in a cycle ([`Texture::cycle_samples`]); with
+    /// Computes a stand-alone tick: the slice of the cycle, the output and, if due, the query. The
+    /// line spectrum covers a `fraction` of its way in a cycle ([`Texture::cycle_samples`]); with
     /// `sounding` false the vibration is mute.
     #[inline]
     pub fn step<S: Capacity>(

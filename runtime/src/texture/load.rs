@@ -74,7 +74,7 @@ impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
         Ok(())
     }
 
-    /// Whether the slot takes a texture; the ticks that a sample of its models lasts.
+    /// Checks that the slot can hold a texture; returns the ticks per sample of its models.
     #[inline(never)]
     fn check(asset: &Asset<'_>, servo_rate_hz: f32) -> Result<u8, LoadError> {
         if !rounds_to_nearest() {
@@ -141,7 +141,7 @@ impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
 /// in fixed point (`tests/laws_lsf.rs`).
 const WIDEST_RANGE: f32 = 1.0e5;
 
-/// Whether rounding leaves every mixture of a grid's models stable.
+/// Checks that every mixture of a grid's models stays stable under rounding.
 #[inline(never)]
 fn check_magnitudes<A: RenderArithmetic>(grid: &Grid<'_>) -> Result<(), LoadError> {
     for (model, stored) in grid.models().enumerate() {

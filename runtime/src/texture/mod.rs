@@ -160,7 +160,7 @@ impl<S: Capacity, A: WeightSearch + RowMixture + SectionProduct + InnerProduct> 
         self.models.model_of(query).into()
     }
 
-    /// Whether an edge model answers a query.
+    /// Returns true if a query is answered by an edge model.
     #[inline]
     pub(crate) fn is_outside(
         &self,

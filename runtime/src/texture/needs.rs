@@ -1,4 +1,4 @@
-//! How large a slot a texture needs.
+//! Slot capacities that a texture needs.
 
 use crate::{
     capacity::{Capacity, HostCapacities},
@@ -7,7 +7,7 @@ use crate::{
 };
 use asperity_formats::Asset;
 
-/// What a texture needs of a slot at a servo rate, in the terms of [`Capacity`].
+/// Capacities that a texture needs at a servo rate, in the terms of [`Capacity`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Needs {
     /// Vertices of the grid.

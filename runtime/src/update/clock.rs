@@ -67,13 +67,13 @@ impl Clock {
         }
     }
 
-    /// Whether the models have a sample in this tick.
+    /// Returns true if the models have a sample in this tick.
     #[inline(always)]
     pub(crate) const fn is_sample(&self) -> bool {
         self.tick == 0
     }
 
-    /// Whether the query is taken in this tick.
+    /// Returns true if the query is taken in this tick.
     #[inline(always)]
     pub(crate) const fn is_query(&self, ticks: u8) -> bool {
         self.sample == 0 && self.tick == ticks - 1

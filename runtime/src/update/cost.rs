@@ -1,12 +1,12 @@
-//! What the work of a cycle costs, and where it is cut into slices.
+//! Cost model of a cycle's work, and its partition into slices.
 //!
-//! The work is a fixed list of items: blocks of triangles to look at, the mixture, section pairs to
-//! multiply in. Each goes to the tick under way or to the next one, so that the costliest tick
-//! costs least.
+//! The work is a fixed list of items: blocks of triangles to examine, the mixture, section pairs to
+//! multiply in. Each goes to the current tick or to the next one, so that the maximum cost of a
+//! tick is minimal.
 
 use crate::model::orders::Orders;
 
-/// What each item costs, in executed instructions; only ratios matter to the cuts.
+/// Cost of each item, in executed instructions; only ratios matter to the cuts.
 pub(super) struct Costs {
     /// The query, before the first block.
     begin: usize,
@@ -153,7 +153,7 @@ impl Items {
     }
 }
 
-/// What a tick may cost.
+/// Cost limits of a tick.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Limits {
     /// The limit of any tick.
@@ -178,7 +178,7 @@ const STEP: usize = 16;
 mod tests {
     use super::*;
 
-    /// What the dearest tick costs at least, from tick `tick` and item `from` on, by trying all.
+    /// Minimum cost of the costliest tick, from tick `tick` and item `from` on, by exhaustive search.
     fn least(items: &Items, ticks: usize, tick: usize, from: usize) -> usize {
         let run = |to: usize| (from..to).map(|item| items.cost(item)).sum::<usize>();
         if tick + 1 == ticks {

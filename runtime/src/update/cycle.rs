@@ -1,8 +1,8 @@
-//! How long a cycle lasts: from one query of speed and force to the next.
+//! Duration of a cycle: from one query of speed and force to the next.
 //!
 //! A query takes effect in the last of the samples that its work takes. The next query follows as
 //! late as possible while every change is still heard within [`LAG_SAMPLES`]. So a small texture
-//! answers sooner and works less often.
+//! responds sooner and works less often.
 
 /// A change of speed or force is heard after at most this many samples of the models.
 pub const LAG_SAMPLES: usize = 10;
@@ -64,7 +64,7 @@ impl Cycle {
 mod tests {
     use super::*;
 
-    /// What changes just after a query waits for the next one, and then for its work.
+    /// A change just after a query waits for the next query, and then for its work.
     #[test]
     fn every_change_is_heard_within_the_lag() {
         assert_eq!(Cycle::ALL.map(Cycle::working), [4, 5, 6]);

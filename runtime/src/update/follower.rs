@@ -67,19 +67,19 @@ impl<A: Arithmetic> Follower<A> {
         self.clock.begin_cycle(cycle);
     }
 
-    /// Whether this tick ends with a query.
+    /// Returns true if this tick ends with a query.
     #[inline(always)]
     pub(crate) const fn takes_query(&self) -> bool {
         self.phase == 0
     }
 
-    /// Whether the models have a sample in this tick, where they are slower than the servo loop.
+    /// Returns true if the models, slower than the servo loop, have a sample in this tick.
     #[inline(always)]
     pub(crate) const fn is_sample(&self) -> bool {
         self.clock.is_sample()
     }
 
-    /// Whether the tick that begins puts a new model to work.
+    /// Returns true if a new model takes effect in the tick that begins.
     #[inline]
     pub(crate) fn finishes(&self, plan: &Plan) -> bool {
         let (ticks, cycle) = (plan.ticks_per_sample, plan.cycle);

@@ -1,4 +1,4 @@
-//! How far the line spectrum goes towards a new mixture in a cycle.
+//! Smoothing of the line spectrum: its step per cycle towards a new mixture.
 
 use super::{cycle::Cycle, plan::Plan};
 use crate::{

@@ -3,12 +3,12 @@
 //! A contact is silent until a query that was taken in it takes effect, and starts at its own
 //! model. Out of contact the cycles go on, so that a tick always costs the same.
 
-/// How much of a cycle was in contact.
+/// Contact during a cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Onset {
-    /// Not all of it.
+    /// Not throughout.
     Left,
-    /// Every tick since its query, the query's own tick included.
+    /// Throughout since its query, the query's own tick included.
     Begun,
     /// The same, and the parameters at work belong to this contact.
     Followed,

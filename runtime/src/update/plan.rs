@@ -10,13 +10,13 @@ use crate::{
     model::{barycentric::WeightSearch, filter::Models},
 };
 
-/// How the work on a texture's models is cut, decided when it is loaded.
+/// Schedule of the work on a texture's models, fixed when it is loaded.
 #[derive(Debug, Clone)]
 pub(crate) struct Plan {
-    /// How long a cycle lasts.
+    /// Duration of a cycle.
     pub(crate) cycle: Cycle,
     slices: Slices,
-    /// Ticks that a sample of the models lasts.
+    /// Ticks per sample of the models.
     pub(super) ticks_per_sample: u8,
 }
 

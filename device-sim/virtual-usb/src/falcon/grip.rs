@@ -13,17 +13,17 @@ const STEP_S: f64 = 1.0 / 16_000.0;
 /// Made up: a light grip with the hand's mass, and the damping that such a mechanism may have.
 const MASS_KG: f64 = 0.3;
 const DAMPING_N_S_M: f64 = 0.5;
-/// How firmly the hand holds it.
+/// Stiffness of the hand, N/m.
 const HAND_N_M: f64 = 200.0;
 const HAND_N_S_M: f64 = 8.0;
-/// Where an encoder finds its zero: as its thigh passes where the grip is 15 mm out.
+/// Grip position, 15 mm out, at which each thigh passes its encoder's index.
 const INDEX_M: [f64; 3] = [CENTRE_M[0], CENTRE_M[1], CENTRE_M[2] + 0.015];
-/// How far the grip goes each way, m: the end stops.
+/// Travel of the grip to the end stops each way, m.
 const STOP_M: f64 = 0.028;
-/// Answers that are remembered: more than a computer may go without a new one and still push.
+/// Answers remembered; more than a computer may miss and still push.
 pub const TOLD: usize = 32;
 
-/// What the motors were told, and did.
+/// Statistics of motor commands and of the resulting forces.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Felt {
     /// Commands.
@@ -54,15 +54,15 @@ pub struct Grip {
     velocity_m_s: [f64; 3],
     motors: [i16; 3],
     homing: bool,
-    /// Whether no command came since plugging in.
+    /// True until the first command after plugging in.
     first: bool,
-    /// Counts that an encoder is off by, until it finds its zero.
+    /// Encoder offsets until the index is passed, counts.
     offsets: [i16; 3],
     homed: u8,
     before: [f64; 3],
     index: [f64; 3],
     time_s: f64,
-    /// Whether the hand does its script; otherwise it holds still.
+    /// True if the hand runs its script; otherwise it holds still.
     pub busy: bool,
     felt: Felt,
     /// Legs where the grip was at the last commands, each of which was answered.
@@ -91,7 +91,7 @@ impl Grip {
         grip
     }
 
-    /// What the motors did so far.
+    /// Returns the statistics so far.
     #[must_use]
     pub fn felt(&self) -> Felt {
         self.felt

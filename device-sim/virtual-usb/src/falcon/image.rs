@@ -1,7 +1,7 @@
 //! A firmware of our own, which only the virtual Falcon runs: a name, a length, bytes that look
 //! like code, and a sum.
 
-/// What it begins with.
+/// Magic at the start of an image.
 const NAME: &[u8; 24] = b"ASPERITY VIRTUAL FALCON\0";
 /// Name, length, sum.
 const HEADER: usize = 24 + 4 + 4;
@@ -25,14 +25,14 @@ pub fn image(bytes: usize) -> Vec<u8> {
     image
 }
 
-/// What the boot loader makes of the bytes so far.
+/// Verdict of the boot loader on the bytes received so far.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Verdict {
-    /// More are to come.
+    /// Incomplete.
     More,
-    /// It is complete and right.
+    /// Complete and valid.
     Right,
-    /// It is none.
+    /// Not a firmware image.
     Wrong,
 }
 

@@ -102,7 +102,7 @@ impl Falcon {
         self
     }
 
-    /// Whether its firmware runs.
+    /// Returns true while its firmware runs.
     #[must_use]
     pub fn is_running(&self) -> bool {
         self.boot.is_running()
@@ -232,16 +232,16 @@ impl Device for Falcon {
 
 // The boot loader: it answers the handshake, repeats every byte of a firmware, and runs it.
 
-/// What users report of real ones.
+/// Boot-loader quirks that users report of real devices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Quirks {
-    /// Handshakes that meet no answer before the first that does.
+    /// Handshakes left unanswered before the first answer.
     pub deaf: u32,
-    /// Loads in which a byte comes back wrong before the first that goes well.
+    /// Loads with a corrupted echo before the first that succeeds.
     pub wrong_echoes: u32,
-    /// Loads whose echo ends early before the first that goes well.
+    /// Loads with a truncated echo before the first that succeeds.
     pub lost_echoes: u32,
-    /// Whether a zero comes before the answer of the handshake.
+    /// True if a zero byte precedes the answer to the handshake.
     pub leading_zero: bool,
 }
 

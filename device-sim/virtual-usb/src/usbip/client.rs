@@ -21,7 +21,7 @@ pub struct Listed {
     pub interfaces: Vec<[u8; 3]>,
 }
 
-/// What the server sends once a device is imported.
+/// Messages from the server once a device is imported.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Event {
     /// A transfer is done.

@@ -25,7 +25,7 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// Transfers that may be pending on a connection.
 const MAX_PENDING: usize = 256;
 
-/// What is served.
+/// A USB/IP server and the devices it exports.
 pub struct Server {
     devices: Vec<Served>,
     stop: AtomicBool,

@@ -90,11 +90,11 @@ pub fn record(bus_id: &str, number: u32, descriptors: &Descriptors) -> Vec<u8> {
 /// A header once a device is imported, either way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Header {
-    /// One of [`SUBMIT`], [`UNLINK`], [`SUBMITTED`], [`UNLINKED`].
+    /// [`SUBMIT`], [`UNLINK`], [`SUBMITTED`] or [`UNLINKED`].
     pub command: u32,
     /// Number of the transfer.
     pub sequence: u32,
-    /// Whether the transfer is from the device.
+    /// True for a transfer from the device.
     pub from_device: bool,
     /// Endpoint, without its direction.
     pub endpoint: u32,

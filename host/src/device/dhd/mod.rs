@@ -19,7 +19,7 @@ use self::library::{Code, Dhd as Functions, Number};
 use super::vendor_library::{Library, LibraryError, Source, VendorError};
 use super::{Description, Device, DeviceError, Reading, Uri};
 
-/// How the library is found. The vendor's robotics library contains it.
+/// Search names of the library. The vendor's robotics library contains it.
 pub const SOURCE: Source = Source {
     product: "Force Dimension SDK",
     variable: "ASPERITY_DHD",
@@ -36,15 +36,15 @@ pub const SOURCE: Source = Source {
 /// the weakest of the devices, the Falcon, is said to give 8 N and more.
 const PEAK_N: f32 = 8.0;
 
-/// How a device is calibrated, in words.
+/// Calibration instructions for the user.
 const HOW: &str = "calibrate it as the vendor's manual says: move it to its resting place at \
                    start-up, or run the vendor's HapticInit; then try again";
 
-/// Whether the library can be used: its path, or the name by which the system found it. `setting`
-/// is the value of `lib=`. The library is loaded for a moment, and no function of it is called.
+/// Checks that the library can be used; returns its path, or the name by which the system found it.
+/// `setting` is the value of `lib=`. The library is loaded briefly; no function of it is called.
 ///
 /// # Errors
-/// [`LibraryError`], with what to do.
+/// [`LibraryError`], with a remedy.
 pub fn installed(setting: Option<&str>) -> Result<String, LibraryError> {
     let library = Library::load(&SOURCE, setting)?;
     let path = library.path().to_owned();
@@ -148,7 +148,7 @@ impl Dhd {
     }
 }
 
-/// What an error means within a period.
+/// Maps an error code within a period to a device error.
 fn fault(Code(code): Code) -> DeviceError {
     match code {
         dhd::ERROR_COM | dhd::ERROR_NO_DEVICE_FOUND | dhd::ERROR_NO_DRIVER_FOUND => {

@@ -20,11 +20,11 @@ use super::transport::{Direction, TransferError, Transport};
 
 /// Largest firmware that is read; those that are known have 8 KiB.
 pub const MAX_BYTES: usize = 64 * 1024;
-/// What the device is asked, and what it answers, with or without a zero before it.
+/// Handshake of the boot loader. Its answer, [`HELLO_ANSWER`], may follow a zero.
 pub const HELLO: [u8; 3] = [0x0a, 0x43, 0x0d];
-/// See [`HELLO`].
+/// Answer to [`HELLO`].
 pub const HELLO_ANSWER: [u8; 4] = [0x0a, 0x44, 0x2c, 0x0d];
-/// What begins the transfer; the device repeats it.
+/// Start byte of the transfer; the device echoes it.
 pub const BEGIN: u8 = 0x41;
 
 /// Time of one transfer.
@@ -55,9 +55,9 @@ pub enum FirmwareError {
     EchoDiffers {
         /// Which byte, from 0.
         offset: usize,
-        /// What was sent.
+        /// Byte sent.
         sent: u8,
-        /// What came back.
+        /// Byte echoed.
         got: u8,
     },
     /// The firmware is in the device and does not run.
@@ -69,7 +69,7 @@ pub enum FirmwareError {
 }
 
 impl FirmwareError {
-    /// What the user can do.
+    /// Returns a remedy for the user.
     #[must_use]
     pub const fn remedy(&self) -> &'static str {
         match self {
@@ -159,10 +159,10 @@ fn handshake(transport: &dyn Transport) -> Result<(), FirmwareError> {
     Err(FirmwareError::NoHandshake)
 }
 
-/// Whether a firmware runs: the first answer to a command without force.
+/// Returns the first answer to a command without force if a firmware runs, else `None`.
 ///
 /// # Errors
-/// [`TransferError`] where the device is gone or refuses transfers.
+/// [`TransferError`] if the device is gone or refuses transfers.
 pub fn answers(transport: &dyn Transport) -> Result<Option<Answer>, TransferError> {
     let mut frames = Frames::default();
     // The first command often meets a device that is still in the middle of another.

@@ -27,23 +27,23 @@ pub mod led {
 const HOMING: u8 = 0x1;
 const LEDS: u8 = led::GREEN | led::BLUE | led::RED;
 
-/// What the computer commands.
+/// A command to the device.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Command {
     /// Counts of the three motors.
     pub motors: [i16; 3],
     /// Lights that are on, see [`led`].
     pub leds: u8,
-    /// Whether the encoders find and keep their zero. It must be set in every command.
+    /// True if the encoders search for and keep their zero; must be set in every command.
     pub homing: bool,
 }
 
-/// What the device answers.
+/// An answer of the device.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Answer {
     /// Counts of the three encoders.
     pub encoders: [i16; 3],
-    /// Encoders that have found their zero, a bit each.
+    /// Homed encoders, a bit each.
     pub homed: u8,
     /// Buttons that are held, a bit each: plus, forward, centre, minus.
     pub buttons: u8,

@@ -15,7 +15,7 @@ pub const ENDPOINT_OUT: u8 = 0x02;
 pub const PACKET_BYTES: usize = 64;
 /// Status bytes at the beginning of a packet to the computer.
 pub const STATUS_BYTES: usize = 2;
-/// What a packet to the computer can carry.
+/// Payload of a packet to the computer, bytes.
 pub const PAYLOAD_BYTES: usize = PACKET_BYTES - STATUS_BYTES;
 
 /// Divisor of 3 MBd for 9600 Bd: 312.5, its half in bit 14.
@@ -114,7 +114,7 @@ pub fn set(transport: &dyn Transport, settings: &[Setting]) -> Result<(), Transf
     })
 }
 
-/// What a packet carries behind its status bytes.
+/// Returns the payload of a packet, behind its status bytes.
 #[must_use]
 pub fn payload(packet: &[u8]) -> &[u8] {
     packet.get(STATUS_BYTES..).unwrap_or_default()

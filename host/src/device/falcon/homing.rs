@@ -4,10 +4,10 @@
 
 use super::frame::{ALL_HOMED, Answer, led};
 
-/// Answers with every encoder homed until positions count.
+/// Consecutive answers with every encoder homed before positions are valid.
 const SETTLE: u8 = 8;
 
-/// Whether positions can be trusted.
+/// Homing state of the encoders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Homing {
     settled: u8,
@@ -15,7 +15,7 @@ pub struct Homing {
 }
 
 impl Homing {
-    /// Takes an answer; gives whether its position counts.
+    /// Processes an answer; returns true if its position is valid.
     pub fn step(&mut self, answer: &Answer) -> bool {
         self.homed = answer.homed;
         self.settled = if answer.homed == ALL_HOMED {
@@ -26,19 +26,19 @@ impl Homing {
         self.done()
     }
 
-    /// Whether positions count.
+    /// Returns true once positions are valid.
     #[must_use]
     pub const fn done(&self) -> bool {
         self.settled >= SETTLE
     }
 
-    /// Encoders that have found their zero, a bit each.
+    /// Homed encoders, a bit each.
     #[must_use]
     pub const fn homed(&self) -> u8 {
         self.homed
     }
 
-    /// The light that tells a person: red before, blue after.
+    /// Returns the indicator light: red while homing, blue once homed.
     #[must_use]
     pub const fn light(&self) -> u8 {
         if self.done() { led::BLUE } else { led::RED }

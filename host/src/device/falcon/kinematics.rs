@@ -77,7 +77,7 @@ pub fn forward(angles: [f64; 3]) -> Option<[f64; 3]> {
     None
 }
 
-/// How the angles change with the position, there. `None` where the mechanism is singular.
+/// Derivatives of the angles with respect to the position; `None` at a singularity.
 #[must_use]
 pub fn jacobian(position_m: [f64; 3], angles: [f64; 3]) -> Option<Jacobian> {
     let mut rows = [[0.0; 3]; 3];

@@ -33,7 +33,7 @@ const PATIENCE: Duration = Duration::from_millis(50);
 /// Frames in which a stop brings the motors to zero, at most.
 const STOP_FRAMES: usize = 16;
 
-/// How many of each there were.
+/// Link statistics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct LinkCounts {
     /// Commands that reached the device.
@@ -46,11 +46,11 @@ pub struct LinkCounts {
     pub short: u64,
     /// Stalls, each cleared.
     pub stalled: u64,
-    /// Transfers that nothing answered in time.
+    /// Transfers that timed out.
     pub timed_out: u64,
     /// Other errors.
     pub failed: u64,
-    /// Times that the servo thread fell silent and the motors were brought to zero.
+    /// Watchdog events: the servo thread fell silent and the motors were ramped to zero.
     pub servo_silent: u64,
 }
 
@@ -87,7 +87,7 @@ struct Shared {
     servo_silent: AtomicU64,
 }
 
-/// What is wrong with the link, as the threads tell it to the servo thread.
+/// Link status, as the threads report it to the servo thread.
 const FINE: u8 = 0;
 const SILENT: u8 = 1;
 const GONE: u8 = 2;
@@ -121,13 +121,13 @@ impl Link {
         Ok(link)
     }
 
-    /// What came last.
+    /// Returns the newest answer.
     #[must_use]
     pub(super) fn newest(&self) -> Held {
         self.shared.newest.held()
     }
 
-    /// What is wrong, if anything.
+    /// Returns the fault of the link, if any.
     #[must_use]
     pub fn fault(&self) -> Option<DeviceError> {
         match self.shared.fault.load(Ordering::Acquire) {
@@ -289,11 +289,11 @@ fn send(transport: &dyn Transport, shared: &Shared, step: i16) {
     }
 }
 
-/// What the motors were told.
+/// Motor commands on their way to the device.
 #[derive(Default)]
 struct Motors {
     sent: [i16; 3],
-    /// Told in a transfer that failed: the motors may have heard it or not.
+    /// Sent in a failed transfer: may or may not have reached the motors.
     unsure: Option<[i16; 3]>,
 }
 

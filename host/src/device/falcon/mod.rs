@@ -101,14 +101,14 @@ impl Falcon {
         })
     }
 
-    /// What the link counted, over all times that the device was opened.
+    /// Returns the link statistics, summed over every time the device was opened.
     #[must_use]
     pub fn counts(&self) -> LinkCounts {
         let now = self.link.as_ref().map(Link::counts).unwrap_or_default();
         self.counts_before + now
     }
 
-    /// Encoders that have found their zero, a bit each.
+    /// Homed encoders, a bit each.
     #[must_use]
     pub fn homed(&self) -> u8 {
         self.homing.homed()
@@ -240,8 +240,9 @@ const JUMP: f32 = 96.0;
 const JUMP_PER_MS: f32 = 64.0;
 const LARGEST_JUMP: f32 = 512.0;
 
-/// Whether two answers cannot follow each other. The protocol has no sum, so a frame whose middle
-/// was lost looks like one. It is refused once; the next answer is compared with it.
+/// Returns true if two answers are too far apart to be consecutive. The protocol has no checksum,
+/// so a frame that lost its middle looks valid. It is rejected once; the next answer is compared
+/// with it.
 fn jumps(before: [i16; 3], after: [i16; 3], between: Duration) -> bool {
     let moved = JUMP + JUMP_PER_MS * between.as_secs_f32() * 1e3;
     let limit = if moved < LARGEST_JUMP {

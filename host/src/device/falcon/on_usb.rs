@@ -29,7 +29,7 @@ pub struct UsbOpener {
 }
 
 impl UsbOpener {
-    /// What `settings` name.
+    /// Creates an opener for `settings`.
     ///
     /// # Errors
     /// [`UsbError::Ids`] for a wrong list of ids.

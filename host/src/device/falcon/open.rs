@@ -60,7 +60,7 @@ pub enum OpenError {
 }
 
 impl OpenError {
-    /// What the user can do.
+    /// Returns a remedy for the user.
     #[must_use]
     pub fn remedy(&self) -> String {
         match self {

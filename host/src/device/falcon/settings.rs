@@ -1,4 +1,4 @@
-//! What a name such as `falcon:?firmware=novint.bin&peak_n=4` says.
+//! Settings in a URI such as `falcon:?firmware=novint.bin&peak_n=4`.
 
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
@@ -59,7 +59,7 @@ pub enum SettingsError {
         key: &'static str,
         /// Its value.
         value: String,
-        /// What it may be.
+        /// Valid values.
         range: &'static str,
     },
     /// The firmware's file cannot be read.
@@ -67,13 +67,13 @@ pub enum SettingsError {
     File {
         /// The file.
         file: PathBuf,
-        /// What is wrong with it.
+        /// Reason for the failure.
         problem: String,
     },
 }
 
 impl SettingsError {
-    /// What the user can do.
+    /// Returns a remedy for the user.
     #[must_use]
     pub fn remedy(&self) -> String {
         match self {

@@ -18,24 +18,24 @@ use super::frame::{Answer, Command};
 #[derive(Debug, Default)]
 pub(super) struct Slot(AtomicU64);
 
-/// What a slot held: its content and its sequence, which is 0 until something was put in.
+/// Snapshot of a slot: its content and its sequence, 0 until the first put.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Held(u64);
 
 impl Slot {
-    /// What the slot holds.
+    /// Returns the content of the slot.
     #[must_use]
     pub(super) fn held(&self) -> Held {
         Held(self.0.load(Ordering::Acquire))
     }
 
-    /// Puts in an answer. One thread alone may put.
+    /// Stores an answer. Single producer.
     pub(super) fn put_answer(&self, answer: &Answer) {
         let flags = u64::from(answer.buttons & 0xf) | u64::from(answer.homed & 0x7) << 4;
         self.put(answer.encoders, flags);
     }
 
-    /// Puts in a command. One thread alone may put.
+    /// Stores a command. Single producer.
     pub(super) fn put_command(&self, command: &Command) {
         let flags = u64::from(command.leds & 0xf) | u64::from(command.homing) << 4;
         self.put(command.motors, flags);

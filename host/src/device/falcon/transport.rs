@@ -1,4 +1,4 @@
-//! How bytes reach a Falcon: USB, or a virtual device in the same program.
+//! Transport to a Falcon: USB, or a virtual device in the same program.
 
 use std::time::Duration;
 

@@ -9,7 +9,7 @@ use crate::fault_plan::{FaultCounts, FaultPlanError, FaultSchedule};
 pub struct Faulty<D> {
     inner: D,
     schedule: FaultSchedule<InjectedFault, KINDS>,
-    /// What this period has.
+    /// Fault of the current period.
     now: Option<InjectedFault>,
     last: Reading,
     clock_step: u32,
@@ -88,7 +88,7 @@ impl<D: Device> Faulty<D> {
         Some(kind)
     }
 
-    /// One of some values.
+    /// Draws one of several values.
     fn one_of<const N: usize>(&mut self, values: [f32; N]) -> f32 {
         values[self.schedule.below(N as u64) as usize]
     }

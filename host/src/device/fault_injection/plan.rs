@@ -29,7 +29,7 @@ pub enum InjectedFault {
     ClockStep,
 }
 
-/// How many kinds there are.
+/// Number of kinds.
 pub(super) const KINDS: usize = 11;
 
 impl FaultKind<KINDS> for InjectedFault {
@@ -68,6 +68,5 @@ impl FaultKind<KINDS> for InjectedFault {
     }
 }
 
-/// How often each fault of a device starts and how long it lasts; for a clock step, the most periods
-/// that it skips.
+/// Start rate and duration of each fault of a device; for a clock step, the most periods that it skips.
 pub type Plan = FaultPlan<InjectedFault, KINDS>;

@@ -1,4 +1,4 @@
-//! One fault in the middle of a contact, and what becomes of the force.
+//! Trials of a single fault during contact, and the response of the force.
 //!
 //! A trial is a servo loop without a clock: the device says when a period is over. It runs the same
 //! on a simulated device, a vendor's library and USB.
@@ -20,7 +20,7 @@ pub const LASTS: u32 = 20;
 /// Periods in which everything must be well again.
 pub const AFTER: u32 = 400;
 
-/// What a fault did. Periods are those of the loop.
+/// Response to a fault. Periods are those of the loop.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Row {
     /// Periods from the first one with the fault to the safe state; `None` if it never came.
@@ -35,11 +35,11 @@ pub struct Row {
     pub largest_n: f32,
     /// The largest change of the force that the device holds, N in a period.
     pub steepest_n: f32,
-    /// Times that the safe state was entered.
+    /// Entries into the safe state.
     pub faults: u32,
-    /// Times that a fault was told.
+    /// Fault reports.
     pub reports: u32,
-    /// Periods with a fault that nobody injected. The row tells nothing then.
+    /// Periods with a fault that was not injected; any invalidates the row.
     pub disturbed: u32,
 }
 
@@ -80,7 +80,7 @@ impl Row {
         )
     }
 
-    /// What of the promises it breaks, in words. `peak_n` and `slew_n` (a period) are the limits.
+    /// Returns the first violated promise, in words. `peak_n` and `slew_n` (per period) are the limits.
     #[must_use]
     pub fn broken(&self, kind: InjectedFault, peak_n: f32, slew_n: f32) -> Option<&'static str> {
         let safe = u32::from(self.safe_after.is_some());
@@ -114,7 +114,7 @@ impl Row {
 /// A trial.
 #[derive(Debug, Clone, Copy)]
 pub struct Trial<'a> {
-    /// What is touched.
+    /// Texture to render.
     pub texture: &'a HostTexture,
     /// The renderer's configuration.
     pub config: &'a Config,

@@ -9,7 +9,7 @@ use super::constants as hd;
 use super::scheduled::Scheduled;
 use crate::device::vendor_library::{Library, LibraryError, symbols};
 
-/// What a scheduler calls, once a period.
+/// Scheduler callback, called once a period.
 type Callback = extern "C" fn(*mut c_void) -> c_uint;
 
 /// An error of the library.
@@ -79,7 +79,7 @@ pub(super) struct Ticket {
 // SAFETY: the pointer comes from an `Arc` of a type that threads may share.
 unsafe impl Send for Ticket {}
 
-/// What the callback works on.
+/// User data of the callback.
 #[derive(Debug)]
 struct Context {
     hd: Arc<Hd>,
@@ -168,7 +168,7 @@ impl Hd {
         values
     }
 
-    /// One number.
+    /// Reads a scalar parameter.
     pub(super) fn double(&self, parameter: u32) -> f64 {
         self.doubles(parameter)[0]
     }
@@ -254,7 +254,7 @@ fn text_of(text: *const c_char) -> Option<String> {
     Some(text.to_string_lossy().into_owned())
 }
 
-/// What the scheduler calls in its own thread. It neither allocates nor panics.
+/// Entry point for the scheduler's thread. It neither allocates nor panics.
 extern "C" fn callback(user: *mut c_void) -> c_uint {
     // SAFETY: `schedule` gave this pointer, and `unschedule` takes it back only when the scheduler
     // has stopped.

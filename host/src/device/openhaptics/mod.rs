@@ -29,7 +29,7 @@ use self::scheduled_device::{ScheduledDevice, fault};
 use super::vendor_library::{Library, LibraryError, Source, VendorError};
 use super::{Description, Device, DeviceError, Reading, Uri};
 
-/// How the library is found.
+/// Search names of the library.
 pub const SOURCE: Source = Source {
     product: "OpenHaptics HD",
     variable: "ASPERITY_OPENHAPTICS",
@@ -62,11 +62,11 @@ impl Drop for Claim {
     }
 }
 
-/// Whether the library can be used: its path, or the name by which the system found it. `setting`
-/// is the value of `lib=`. The library is loaded for a moment, and no function of it is called.
+/// Checks that the library can be used; returns its path, or the name by which the system found it.
+/// `setting` is the value of `lib=`. The library is loaded briefly; no function of it is called.
 ///
 /// # Errors
-/// [`LibraryError`], with what to do.
+/// [`LibraryError`], with a remedy.
 pub fn installed(setting: Option<&str>) -> Result<String, LibraryError> {
     let library = Library::load(&SOURCE, setting)?;
     let path = library.path().to_owned();

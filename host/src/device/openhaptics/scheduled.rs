@@ -1,7 +1,7 @@
-//! What the scheduler's thread and the servo thread tell each other.
+//! State shared by the scheduler's thread and the servo thread.
 //!
 //! Neither waits for the other. If the servo thread stops commanding forces, the scheduler's thread
-//! takes the force to zero by small steps: a servo loop that hangs or dies leaves no force behind.
+//! ramps the force to zero: a servo loop that hangs or dies leaves no force behind.
 
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering::Relaxed};
 
@@ -14,10 +14,10 @@ const PATIENCE: u32 = 10;
 /// The largest change of force in a period while it goes to zero, or comes back, N.
 const RELEASE_STEP_N: f32 = 0.25;
 
-/// What a device measured, in its own frame.
+/// Measurement of a device, in its own frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Measured {
-    /// Counts the measurements.
+    /// Number of the measurement.
     pub(super) number: u32,
     /// Position, m.
     pub(super) position_m: [f32; 3],
@@ -27,7 +27,7 @@ pub(super) struct Measured {
     pub(super) buttons: u32,
 }
 
-/// What both threads share.
+/// State shared by both threads.
 #[derive(Debug, Default)]
 pub(super) struct Scheduled {
     measured: Snapshot<7>,
@@ -76,7 +76,7 @@ impl Scheduled {
         self.stopping.store(true, Relaxed);
     }
 
-    /// Whether no force is held.
+    /// Returns true if no force is held.
     pub(super) fn is_released(&self) -> bool {
         self.held().iter().all(|&x| x == 0.0)
     }
@@ -134,7 +134,7 @@ impl Scheduled {
     }
 }
 
-/// One small step from one force to another.
+/// Steps from one force towards another, by at most [`RELEASE_STEP_N`].
 fn toward(from: [f32; 3], to: [f32; 3]) -> [f32; 3] {
     let way: [f32; 3] = std::array::from_fn(|axis| to[axis] - from[axis]);
     let length = norm(way);

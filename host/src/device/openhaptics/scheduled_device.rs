@@ -10,14 +10,14 @@ use super::scheduled::Scheduled;
 use crate::device::DeviceError;
 use crate::device::vendor_library::VendorError;
 
-/// How long opening waits for the first measurement.
+/// Timeout for the first measurement when opening.
 const OPENING: Duration = Duration::from_secs(2);
-/// How long a release waits for the force to reach zero.
+/// Timeout for the force to reach zero on release.
 const RELEASE: Duration = Duration::from_secs(1);
-/// After this long without a period the scheduler stands still.
+/// Time without a period after which the scheduler counts as stalled.
 const STANDSTILL: Duration = Duration::from_millis(100);
 
-/// How a device is calibrated, in words.
+/// Calibration instructions for the user.
 const HOW: &str = "put the stylus into the inkwell of the device (older models: into the pose that \
                    the vendor's set-up program shows), then try again";
 
@@ -30,7 +30,7 @@ pub(super) struct ScheduledDevice {
     ticket: Option<Ticket>,
 }
 
-/// What an error means within a period.
+/// Maps an error code within a period to a device error.
 pub(super) fn fault(code: u32) -> DeviceError {
     match code {
         hd::HD_WARM_MOTORS => DeviceError::WarmMotors,

@@ -12,14 +12,14 @@ use super::usb::scan::{Found, refuse, scan};
 const SERIAL: [u8; 2] = [0x02, 0x0a];
 const HID: u8 = 0x03;
 
-/// How the firmware of a Touch presents itself.
+/// USB presentation of a Touch's firmware.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Face {
-    /// As a serial line (CDC-ACM), `/dev/ttyACM…` on Linux.
+    /// Serial line (CDC-ACM), `/dev/ttyACM…` on Linux.
     Serial,
-    /// As a human interface device, `/dev/hidraw…` on Linux: newer firmware.
+    /// Human interface device, `/dev/hidraw…` on Linux: newer firmware.
     Hid,
-    /// Otherwise, or its descriptors cannot be read.
+    /// Any other, or unreadable descriptors.
     Other,
 }
 

@@ -27,7 +27,7 @@ pub enum Absence {
 }
 
 impl Absence {
-    /// What the system says of itself, where libusb failed with `error`.
+    /// Diagnoses the system after libusb failed with `error`.
     pub(super) fn here(error: rusb::Error) -> Self {
         let nodes = if cfg!(target_os = "linux") {
             Self::of(Path::new(NODES))
@@ -37,7 +37,7 @@ impl Absence {
         nodes.unwrap_or_else(|| Self::Libusb(error.to_string()))
     }
 
-    /// What is wrong with a folder of devices, if anything is.
+    /// Diagnoses a folder of devices; `None` if it is fine.
     fn of(nodes: &Path) -> Option<Self> {
         match nodes.read_dir().map(|mut buses| buses.next().is_none()) {
             Ok(true) => Some(Self::NoBus),
@@ -54,7 +54,7 @@ impl Absence {
         }
     }
 
-    /// What the user can do.
+    /// Returns a remedy for the user.
     pub(super) fn remedy(&self) -> &'static str {
         match self {
             Self::NoNodes | Self::NoBus => {

@@ -19,35 +19,35 @@ pub enum UsbError {
     /// Nothing with these ids is plugged in.
     #[error("no {what} is plugged in{}", named(which))]
     NotFound {
-        /// What was looked for.
+        /// Kind of device sought.
         what: &'static str,
-        /// Which one, if one was named.
+        /// Serial number or place, if given.
         which: String,
     },
     /// The system does not let this user in.
     #[error("{device} is there, but this user may not open it")]
     NotPermitted {
-        /// Which device, with its place.
+        /// The device, with its place.
         device: String,
     },
     /// Another program has it.
     #[error("{device} is in use by another program or driver")]
     InUse {
-        /// Which device, with its place.
+        /// The device, with its place.
         device: String,
     },
     /// It went away, or failed otherwise.
     #[error("{device} cannot be opened: {problem}")]
     Failed {
-        /// Which device, with its place.
+        /// The device, with its place.
         device: String,
-        /// What libusb says.
+        /// Message of libusb.
         problem: String,
     },
-    /// It is known what it is, and not how to talk to it.
+    /// A known device whose protocol is not public.
     #[error("{device} is there, but its protocol is not public")]
     Proprietary {
-        /// Which device, with its place.
+        /// The device, with its place.
         device: String,
     },
 }
@@ -61,7 +61,7 @@ fn named(which: &str) -> String {
 }
 
 impl UsbError {
-    /// What the user can do.
+    /// Returns a remedy for the user.
     #[must_use]
     pub fn remedy(&self) -> String {
         match self {

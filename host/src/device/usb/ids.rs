@@ -25,7 +25,7 @@ pub struct KnownId {
     pub vendor: u16,
     /// Product id.
     pub product: u16,
-    /// What it is.
+    /// Kind of the device.
     pub kind: Kind,
     /// Name for reports.
     pub name: String,
@@ -46,7 +46,7 @@ pub struct Ids {
 pub struct IdsError {
     /// The file.
     pub file: String,
-    /// What is wrong with it.
+    /// Description of the defect.
     pub problem: String,
 }
 
@@ -96,7 +96,7 @@ impl Ids {
         })
     }
 
-    /// What has these ids.
+    /// Returns the device with these ids.
     #[must_use]
     pub fn find(&self, vendor: u16, product: u16) -> Option<&KnownId> {
         let same = |id: &&KnownId| (id.vendor, id.product) == (vendor, product);
@@ -105,7 +105,7 @@ impl Ids {
 }
 
 impl IdsError {
-    /// What the user can do.
+    /// Returns a remedy for the user.
     #[must_use]
     pub fn remedy(&self) -> String {
         "write a [[device]] table with vendor = 0x0403, product = 0xcb48, kind = \"falcon\" or \

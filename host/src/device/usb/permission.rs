@@ -21,7 +21,7 @@ pub fn rules(ids: &Ids) -> String {
     text
 }
 
-/// What to do where the system does not let a user in.
+/// Returns a remedy for a device that this user may not open.
 #[must_use]
 pub fn remedy() -> String {
     if cfg!(target_os = "linux") {

@@ -1,4 +1,4 @@
-//! What is plugged in, and whether this user may use it.
+//! Scan of the devices plugged in, and of this user's access to them.
 
 use std::time::Duration;
 
@@ -11,18 +11,18 @@ use super::ids::{Ids, Kind};
 /// Time for a device to tell its strings.
 const PATIENCE: Duration = Duration::from_millis(200);
 
-/// Whether a device can be used.
+/// Access to a device.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Access {
-    /// It can.
+    /// Usable.
     Ready,
     /// The system does not let this user in.
     NotPermitted,
     /// Another program or driver has it.
     InUse,
-    /// Something else; libusb's words.
+    /// Other error, in libusb's words.
     Failed(String),
-    /// Not tried: it is none of ours.
+    /// Not tried: not in the list of ids.
     Unknown,
 }
 
@@ -37,15 +37,15 @@ pub struct Found {
     pub vendor: u16,
     /// Product id.
     pub product: u16,
-    /// What the list of ids says that it is.
+    /// Kind according to the list of ids.
     pub kind: Option<Kind>,
-    /// Its name in the list of ids, or what it says of itself.
+    /// Name in the list of ids, or else its product string.
     pub name: String,
-    /// Serial number, if it tells one.
+    /// Serial number, if reported.
     pub serial: Option<String>,
     /// Classes of its interfaces, as USB numbers them.
     pub interface_classes: Vec<u8>,
-    /// Whether it can be used.
+    /// Access for this user.
     pub access: Access,
 }
 
@@ -72,8 +72,7 @@ impl Found {
         }
     }
 
-    /// Whether it is the one that `which` names: by serial number, by bus and address, or any for
-    /// an empty name.
+    /// Returns true if `which` names it: by serial number, by bus and address, or any for an empty name.
     #[must_use]
     pub fn is(&self, which: &str) -> bool {
         which.is_empty()
@@ -158,7 +157,7 @@ fn look(device: &Device<Context>, ids: &Ids) -> Option<Found> {
     Some(found)
 }
 
-/// What libusb's errors mean for access.
+/// Maps an error of libusb to an access.
 pub(crate) fn access(error: rusb::Error) -> Access {
     match error {
         rusb::Error::Access => Access::NotPermitted,

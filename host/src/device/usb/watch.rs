@@ -1,4 +1,4 @@
-//! What is plugged in and out while one watches.
+//! Watch for devices being plugged in and out.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use super::scan::{Found, context, scan};
 /// Time between two looks.
 const LOOK: Duration = Duration::from_millis(500);
 
-/// What happened.
+/// A change of the bus.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Event {
     /// A device of the list was plugged in, or was there at the beginning.
@@ -36,7 +36,7 @@ impl Hotplug<Context> for Bell {
     }
 }
 
-/// Whether libusb tells of changes here.
+/// Returns true if libusb reports changes on this system.
 #[must_use]
 pub fn has_hotplug() -> bool {
     rusb::has_hotplug()

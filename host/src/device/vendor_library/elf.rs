@@ -15,7 +15,7 @@ const MACHINES: [(u16, &str); 6] = [
     (243, "riscv64"),
 ];
 
-/// What the first bytes of a file say.
+/// Kind of a file, from its first bytes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Kind {
     /// An ELF file for a machine, by its Rust name where it has one.
@@ -40,7 +40,8 @@ pub(super) fn kind(path: &Path) -> Option<Kind> {
     }
 }
 
-/// Whether a 64-bit little-endian file ends before its table of sections, which compilers put last.
+/// Returns true if a 64-bit little-endian file ends before its section header table, which
+/// compilers put last.
 fn is_cut(head: &[u8; HEAD], length: u64) -> bool {
     let short = |at: usize| u64::from(u16::from_le_bytes([head[at], head[at + 1]]));
     let table = (0..8)

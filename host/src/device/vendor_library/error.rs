@@ -17,7 +17,7 @@ pub enum LibraryError {
         names: String,
         /// Environment variable that may hold a path.
         variable: &'static str,
-        /// What the system's loader said.
+        /// Message of the system's loader.
         message: String,
     },
     /// The named file does not exist, or cannot be read.
@@ -27,7 +27,7 @@ pub enum LibraryError {
         product: &'static str,
         /// The file.
         path: String,
-        /// What the system said.
+        /// Message of the system.
         message: String,
     },
     /// The named file is no shared library.
@@ -59,7 +59,7 @@ pub enum LibraryError {
         product: &'static str,
         /// The file.
         path: String,
-        /// What the system's loader said.
+        /// Message of the system's loader.
         message: String,
     },
     /// It lacks a function.
@@ -75,7 +75,7 @@ pub enum LibraryError {
 }
 
 impl LibraryError {
-    /// What to do about it.
+    /// Returns a remedy for the user.
     #[must_use]
     pub fn remedy(&self) -> String {
         match self {
@@ -117,7 +117,7 @@ pub enum VendorError {
     /// A setting whose value makes no sense.
     #[error("{scheme}: setting {key}={value}: {rule}")]
     Setting {
-        /// What stands before the colon.
+        /// Scheme, before the colon.
         scheme: &'static str,
         /// The setting.
         key: &'static str,
@@ -129,59 +129,59 @@ pub enum VendorError {
     /// The device is open already.
     #[error("{device} is in use")]
     InUse {
-        /// Which device.
+        /// The device.
         device: String,
     },
     /// The library found no such device, or the device did not answer.
     #[error("{device} cannot be opened: {message} (error {code:#x})")]
     NoDevice {
-        /// Which device.
+        /// The device.
         device: String,
-        /// What the library said.
+        /// Message of the library.
         message: String,
-        /// Its code.
+        /// Error code of the library.
         code: i32,
     },
     /// Its configuration is missing or wrong.
     #[error("{device} is not configured: {message} (error {code:#x})")]
     Configuration {
-        /// Which device.
+        /// The device.
         device: String,
-        /// What the library said.
+        /// Message of the library.
         message: String,
-        /// Its code.
+        /// Error code of the library.
         code: i32,
     },
     /// The device was not calibrated.
     #[error("{device} is not calibrated")]
     NotCalibrated {
-        /// Which device.
+        /// The device.
         device: String,
-        /// How it is calibrated.
+        /// Calibration instructions.
         how: &'static str,
     },
     /// The motors are too warm to begin.
     #[error("the motors of {device} are too warm")]
     WarmMotors {
-        /// Which device.
+        /// The device.
         device: String,
     },
     /// Another error of the library.
     #[error("{device}: {doing} failed: {message} (error {code:#x})")]
     Refused {
-        /// Which device.
+        /// The device.
         device: String,
-        /// What was tried.
+        /// Operation that failed.
         doing: &'static str,
-        /// What the library said.
+        /// Message of the library.
         message: String,
-        /// Its code.
+        /// Error code of the library.
         code: i32,
     },
 }
 
 impl VendorError {
-    /// What to do about it.
+    /// Returns a remedy for the user.
     #[must_use]
     pub fn remedy(&self) -> String {
         match self {

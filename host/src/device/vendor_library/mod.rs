@@ -11,7 +11,7 @@ mod load;
 pub use error::{LibraryError, VendorError};
 pub(super) use load::{Library, symbols};
 
-/// How a vendor's library is found.
+/// Search names of a vendor's library.
 #[derive(Debug, Clone, Copy)]
 pub struct Source {
     /// The product, for messages.
@@ -25,14 +25,14 @@ pub struct Source {
 /// Where a library was asked for, in the order of precedence.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Asked {
-    /// This file.
+    /// A given file.
     File(String),
-    /// One of the names, where the system looks.
+    /// Any of the names, on the system's search path.
     System,
 }
 
 impl Source {
-    /// What is asked for: `setting` is the value of `lib=`.
+    /// Resolves the requested library: `setting` is the value of `lib=`.
     fn asked(&self, setting: Option<&str>) -> Asked {
         let variable = std::env::var(self.variable).ok();
         let path = setting.map(str::to_owned).or(variable);

@@ -57,8 +57,8 @@ pub(super) fn gain(taps: &[f64], turns: f64) -> f64 {
     libm::sqrt(re * re + im * im)
 }
 
-/// Whether every zero of a filter lies within the unit circle: the reflection coefficients of its
-/// monic form are all below 1.
+/// Returns true if every zero of a filter lies within the unit circle: the reflection coefficients
+/// of its monic form are all below 1 in magnitude.
 pub(super) fn is_minimum_phase(taps: &[f64]) -> bool {
     let mut a = taps.to_vec();
     while a.len() > 1 {

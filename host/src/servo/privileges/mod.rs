@@ -1,5 +1,5 @@
-//! What a servo thread asks of the system, each acquired if permitted and otherwise reported with
-//! what grants it.
+//! Real-time privileges of a servo thread, each acquired if permitted and otherwise reported with
+//! its remedy.
 //!
 //! | asked | Linux | macOS | Windows |
 //! |---|---|---|---|
@@ -22,10 +22,10 @@ pub use policy::{Policy, PolicyError};
 
 use std::fs::File;
 
-/// What to ask for.
+/// Requested privileges.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Wanted {
-    /// How the thread is scheduled.
+    /// Scheduling policy of the thread.
     pub policy: Policy,
     /// Keep all memory of the process in RAM.
     pub lock_memory: bool,
@@ -53,12 +53,12 @@ impl Wanted {
     };
 }
 
-/// The answer to one request.
+/// Result of a request.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Grant {
-    /// What was asked for, such as `policy`.
+    /// Kind of privilege, such as `policy`.
     pub what: &'static str,
-    /// What was asked for in particular, such as `SCHED_FIFO 80`.
+    /// Requested value, such as `SCHED_FIFO 80`.
     pub wanted: String,
     /// Why it was refused, if it was.
     pub refusal: Option<Refusal>,
@@ -67,13 +67,13 @@ pub struct Grant {
 /// Why a request was refused, and what grants it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refusal {
-    /// What the system says.
+    /// Message of the system.
     pub why: String,
-    /// What the user can do, a command where there is one.
+    /// Remedy for the user, a command if there is one.
     pub remedy: String,
 }
 
-/// What the thread has. Dropping it gives up what is held by an open file.
+/// Privileges of the thread. Dropping it gives up those held by an open file.
 #[derive(Debug)]
 pub(super) struct Acquired {
     pub(super) grants: Vec<Grant>,

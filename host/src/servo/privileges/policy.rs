@@ -1,17 +1,17 @@
-//! How a thread is scheduled.
+//! Scheduling policy of a thread.
 
 use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// How a thread is scheduled.
+/// Scheduling policy of a thread.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Policy {
-    /// As every other thread.
+    /// The default policy.
     Other,
-    /// Before every ordinary thread, until it sleeps.
+    /// Ahead of every ordinary thread, until it sleeps.
     Fifo {
-        /// 1 to 99; higher ones go first.
+        /// Priority, 1 to 99; higher runs first.
         priority: u8,
     },
     /// A budget in every period, guaranteed by the kernel.

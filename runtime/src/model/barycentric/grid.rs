@@ -113,8 +113,8 @@ impl<S: Capacity, A: WeightSearch> Grid<S, A> {
         triangles.len().min(places.len())
     }
 
-    /// How many of `all` blocks a query looks at: the most that two strips share. Where they
-    /// share none (the triangles leave a gap), every query looks at all.
+    /// Counts the blocks, of `all`, that a query examines: the most that two strips share. If any
+    /// pair shares none (the triangles leave a gap), every query examines all.
     fn count_blocks(&mut self, all: usize) {
         let (speeds, speed_count) = distinct(&self.speed_strips.blocks);
         let (forces, force_count) = distinct(&self.force_strips.blocks);

@@ -50,7 +50,7 @@ impl<A: WeightSearch> Search<A> {
         ];
     }
 
-    /// Whether the stored search has blocks left.
+    /// Returns true if the stored search has blocks left.
     #[inline(always)]
     pub(crate) fn goes_on(scratch: &Scratch) -> bool {
         let [_, [left, ..], ..] = &scratch.0;

@@ -38,8 +38,8 @@ pub trait WeightSearch: Arithmetic {
     /// replaced by its index; the four are numbered from `index` on.
     fn better(best: Self::Best, four: Four<Self, Weight>, bits: u32, index: u32) -> Self::Best;
 
-    /// Whether the best triangle contains the point: its weight is −2⁻²³ or more, within the bits
-    /// of an index.
+    /// Returns true if the best triangle contains the point: its weight is −2⁻²³ or more, within
+    /// the bits of an index.
     fn is_inside(best: Self::Best) -> bool;
 
     /// Stores the best weights as bits. A single weight takes the first of them.

@@ -12,7 +12,7 @@ pub struct Barycentric<A: Arithmetic = Float> {
     pub vertices: [u8; 3],
     /// Weights in [0, 1] that sum to 1 within rounding.
     pub weights: [Quantity<A, Fraction>; 3],
-    /// Whether the query lay outside the grid and was moved to its border.
+    /// True if the query lay outside the grid and was moved to its border.
     pub outside: bool,
 }
 

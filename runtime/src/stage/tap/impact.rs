@@ -23,7 +23,7 @@ const PLACE_S: f32 = 1e-3;
 /// The slope a tick is Σ (2i − 7)·dᵢ over this number, since Σ (i − 3.5)² over eight samples is 42.
 const SPREAD: f32 = 84.0;
 
-/// What counts as an impact, prepared for a servo rate.
+/// Impact criteria, prepared for a servo rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Detector<A: Arithmetic = Float> {
     rate: Quantity<A, Hertz>,

@@ -41,7 +41,7 @@ pub struct TapState<A: Arithmetic = Float> {
 pub struct Tap<A: Arithmetic = Float> {
     /// Acceleration along the normal, m/s².
     pub acceleration: Quantity<A, TapAcceleration>,
-    /// Whether a transient started in this tick, and whether one is under way.
+    /// Flags for the start of a transient in this tick, and for one under way.
     pub flags: Flags,
 }
 
@@ -83,7 +83,7 @@ impl<A: Arithmetic> TapState<A> {
 }
 
 impl<A: Arithmetic> Detector<A> {
-    /// One tick at a distance from the surface, m, negative inside.
+    /// Advances by a tick at a distance from the surface, m, negative inside.
     #[inline]
     pub fn step<S: Capacity>(
         &self,

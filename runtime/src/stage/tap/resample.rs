@@ -296,7 +296,7 @@ impl Resampler {
     }
 }
 
-/// What the filter gave of `N` traces.
+/// Output of the filter for `N` traces.
 struct Given<const N: usize> {
     /// From the response of the poles to that of the filter.
     gain: f32,
