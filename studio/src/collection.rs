@@ -34,7 +34,7 @@ use thiserror::Error;
 #[derive(Debug)]
 pub struct Collection {
     name: String,
-    /// What tells it from others of its name.
+    /// Identifier that distinguishes it from others of its name.
     id: String,
     place: Place,
     /// Where it lies is of no interest to those who see it.
@@ -54,7 +54,7 @@ enum Place {
 /// A path that is neither a library nor a folder of assets.
 #[derive(Debug, Error)]
 pub enum CollectionError {
-    /// One asset.
+    /// A single asset.
     #[error("{path}: one asset, not a library", path = .0.display())]
     Asset(PathBuf),
     /// A folder without assets.
@@ -183,7 +183,7 @@ impl Collection {
         &self.name
     }
 
-    /// How many textures it has.
+    /// Returns the number of textures.
     #[must_use]
     pub fn textures(&self) -> usize {
         self.rows.len()
@@ -206,7 +206,7 @@ impl Collection {
         }
     }
 
-    /// What the gallery shows of all its textures, JSON.
+    /// Returns the gallery's columns of all its textures, JSON.
     pub(crate) fn columns(&self, id: &str) -> Arc<[u8]> {
         let written = self
             .columns
