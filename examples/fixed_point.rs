@@ -1,4 +1,4 @@
-//! One tick, two arithmetics: the same asset in floats and in fixed point.
+//! A tick in two arithmetics: the same asset in floats and in fixed point.
 //!
 //! Every stage of the tick is written once over `RenderArithmetic`. A processor without an FPU takes
 //! `Fixed`: numbers of 32 bits that carry their binary point in their type. The asset, the seed

@@ -27,7 +27,7 @@ const MOST_TICKS: usize = 30_000;
 /// Variations of the built-in texture: name and coefficient of friction.
 const TEXTURES: [(&str, f64); 3] = [("grit", 0.72), ("smooth", 0.3), ("sticky", 1.1)];
 
-/// What a tick gave, and the friction coefficient of the texture that played.
+/// Output of a tick, and the friction coefficient of the texture that played.
 type Row = (Output, f32);
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -78,7 +78,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// One tick a period until the last one is `done`; counts the periods that were missed.
+/// Renders a tick per period until the last one is `done`; returns the number of missed periods.
 fn servo_loop<S: Servo>(
     session: &mut Session<FaultInjector<S>>,
     ticks: &AtomicUsize,
@@ -107,7 +107,7 @@ fn servo_loop<S: Servo>(
     missed
 }
 
-/// What must hold, however late the loop was woken.
+/// Checks the invariants, which hold however late the loop was woken.
 fn check(rows: &[Row], peak_n: f32) {
     let force_n = |(output, _): &Row| output.force_n.iter().map(|n| n * n).sum::<f32>().sqrt();
     assert!(rows.iter().all(|row| force_n(row) <= 1.0001 * peak_n));

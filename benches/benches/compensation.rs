@@ -1,5 +1,5 @@
-//! What the compensation filter of a device's profile costs: executed instructions at load, and of
-//! a tick of the texture that comes out.
+//! Cost of a device profile's compensation filter: executed instructions at load, and per tick of the compensated
+//! texture.
 //!
 //! `cargo bench -p asperity-benches --bench compensation` needs valgrind on the PATH; `-- --test` checks
 //! the results and counts nothing. n and 2n turns are counted, and the difference over n is one.

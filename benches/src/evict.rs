@@ -1,4 +1,4 @@
-//! What others do to the caches between two ticks of a servo loop.
+//! Cache eviction, as by other work between two ticks of a servo loop.
 
 use std::hint::black_box;
 

@@ -1,5 +1,5 @@
-//! What a tick costs: textures of a known size, scripted motions, and a reference to compare
-//! with. The criterion benches and the commands `instructions` and `paired` share them.
+//! Cost of a tick: textures of a known size, scripted motions, and a reference to compare with. The criterion benches
+//! and the commands `instructions` and `paired` share them.
 #![forbid(unsafe_code)]
 
 pub mod callgrind;
@@ -73,7 +73,7 @@ impl Rig {
         ]
     }
 
-    /// One tick.
+    /// Renders a tick.
     #[inline(never)]
     pub fn tick(&mut self, sample: &Sample) -> Output {
         self.renderer.tick(&self.texture, &mut self.state, sample)

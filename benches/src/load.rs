@@ -11,7 +11,7 @@ use asperity_runtime::{HostTexture, quantity::Quantity};
 /// Textures of the library.
 pub const TEXTURES: usize = 1000;
 
-/// What is measured.
+/// The measured work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Work {
     /// Every check of an asset of order 20, ARMA.

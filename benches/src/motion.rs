@@ -19,7 +19,7 @@ pub enum Motion {
     Taps,
     /// Every sample is NaN.
     NotANumber,
-    /// One sample in three is stale.
+    /// Every third sample is stale.
     Stale,
 }
 

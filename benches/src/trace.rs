@@ -8,7 +8,7 @@ use std::{collections::HashSet, io::BufRead, ops::Range};
 /// Bytes of a cache line.
 pub const LINE: u64 = 64;
 
-/// What an address belongs to.
+/// Owner of an address.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Owner {
     /// Instructions.

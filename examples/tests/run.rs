@@ -8,7 +8,7 @@ use std::{
     process::Command,
 };
 
-/// What `command` prints; it must succeed.
+/// Runs `command`, which must succeed, and returns its output.
 fn printed(command: &mut Command) -> String {
     let output = command
         .output()

@@ -1,9 +1,9 @@
-//! What command `asperity-lab` measures, as a library.
+//! The measurements of the `asperity-lab` command, as a library.
 //!
 //! | module | holds |
 //! |---|---|
 //! | [`servo_session`] | a servo loop of [`asperity_host`] on a texture or a scene, on a real device or the simulated one |
-//! | [`jitter`] | how punctual that loop is: tables, JSON, pictures |
+//! | [`jitter`] | latency and jitter of that loop: tables, JSON, pictures |
 //! | [`feel`] | a simulated hand on a texture, with its summary, CSV, sheet and sound |
 //! | [`capture`] | a recording of a real surface: sensors on ports and files, coverage, the folder |
 //! | [`calibration`] | a sweep, the acceleration that follows, a profile of both |

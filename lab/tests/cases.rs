@@ -10,7 +10,7 @@ use std::{
     process::{Command, Output},
 };
 
-/// What checks a case.
+/// Checks a case.
 type Check = fn(&Case);
 
 const CHECKS: &[(&str, Check)] = &[

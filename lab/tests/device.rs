@@ -141,7 +141,7 @@ fn a_report_holds_versions_settings_and_every_position() {
     }
 }
 
-/// What is on USB depends on the machine; `.ci/check-usb` and the tests of the list show each state.
+/// The list depends on the machine's USB devices; `.ci/check-usb` and the tests of the list show each state.
 #[test]
 fn a_list_ends_well_whatever_is_plugged_in_and_a_probe_says_what_to_do() {
     let output = lab(&["list"]);

@@ -34,7 +34,7 @@ fn errors(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-/// What a session says as JSON.
+/// Runs a session and returns its JSON.
 fn ok(folder: &Path, arguments: &[&str]) -> Value {
     json(&servo(folder, &[arguments, &["--json"]].concat()))
 }
@@ -44,7 +44,7 @@ fn json(output: &Output) -> Value {
     reported(output)
 }
 
-/// What was reported, whatever the exit status.
+/// Returns the report, whatever the exit status.
 fn reported(output: &Output) -> Value {
     serde_json::from_slice(&output.stdout).expect("JSON")
 }

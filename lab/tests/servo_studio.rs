@@ -7,7 +7,7 @@ use std::net::TcpStream;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// One request of the page; the JSON of its answer.
+/// Sends a request as the page does and returns the answer's JSON.
 fn ask(url: &str, method: &str, path: &str, body: &[u8]) -> Value {
     let (host, page) = url
         .strip_prefix("http://")

@@ -1,4 +1,4 @@
-//! What the page asks first: what the server is and can do.
+//! The page's first request: the server's version and capabilities.
 
 use crate::{
     VERSION,
@@ -20,11 +20,11 @@ use serde::Serialize;
 #[derive(Serialize)]
 struct About<'a> {
     version: &'a str,
-    /// Whether the page is static files, without a server.
+    /// True if the page is static files, without a server.
     exported: bool,
-    /// Whether files are opened, and libraries packed.
+    /// True if files can be opened and libraries packed.
     opens: bool,
-    /// Whether prompts are compiled, and textures edited.
+    /// True if prompts can be compiled and textures edited.
     prompts: bool,
     library: Option<Library<'a>>,
     folder: Option<String>,
@@ -60,7 +60,7 @@ impl<'a> Library<'a> {
 struct Slider {
     axis: Axis,
     unit: &'static str,
-    /// What it moves, as reports call it.
+    /// The attribute that it moves, as named in reports.
     attribute: &'static str,
     /// The attribute at 0.
     low: f64,
@@ -98,7 +98,7 @@ struct Compiler {
     bytes: usize,
 }
 
-/// What the server is, JSON. It waits for the networks where there are any.
+/// Returns the server's version and capabilities, JSON. Waits for the networks where there are any.
 pub(crate) fn about(
     prompts: &Prompts,
     start: Option<&LibraryHandle>,

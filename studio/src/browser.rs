@@ -24,7 +24,7 @@ pub enum BrowserError {
     Failed {
         /// The program.
         program: &'static str,
-        /// How it ended.
+        /// Its exit status.
         status: ExitStatus,
     },
 }
@@ -52,7 +52,7 @@ pub fn show(url: &str, failed: impl FnOnce(BrowserError) + Send + 'static) {
         });
 }
 
-/// Whether a browser has a place to be seen: on Linux and other Unix systems a display, elsewhere always.
+/// Returns true if a browser window can be shown: on Linux and other Unix systems with a display, elsewhere always.
 fn has_display() -> bool {
     let set = |name: &str| env::var_os(name).is_some_and(|value| !value.is_empty());
     cfg!(any(windows, target_os = "macos")) || set("DISPLAY") || set("WAYLAND_DISPLAY")

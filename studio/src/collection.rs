@@ -36,7 +36,7 @@ use thiserror::Error;
 #[derive(Debug)]
 pub struct Collection {
     name: String,
-    /// What tells it from others of its name.
+    /// Identifier that distinguishes it from others of its name.
     id: String,
     place: Place,
     /// Where it lies is of no interest to those who see it.
@@ -56,7 +56,7 @@ enum Place {
 /// A path that is neither a library nor a folder of assets.
 #[derive(Debug, Error)]
 pub enum CollectionError {
-    /// One asset.
+    /// A single asset.
     #[error("{path}: one asset, not a library", path = .0.display())]
     Asset(PathBuf),
     /// A folder without assets.
@@ -185,7 +185,7 @@ impl Collection {
         &self.name
     }
 
-    /// How many textures it has.
+    /// Returns the number of textures.
     #[must_use]
     pub fn textures(&self) -> usize {
         self.rows.len()
@@ -208,7 +208,7 @@ impl Collection {
         }
     }
 
-    /// What the gallery shows of all its textures, JSON.
+    /// Returns the gallery's columns of all its textures, JSON.
     pub(crate) fn columns(&self, id: &str) -> Arc<[u8]> {
         let written = self
             .columns

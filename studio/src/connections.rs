@@ -14,7 +14,7 @@ use std::{
 
 /// Connections at once that hold no place of the user's.
 const STRANGERS: usize = 64;
-/// How long the room of one that was shut is waited for; its thread ends at once where it gets a processor.
+/// Longest wait for the room of a shut connection; its thread ends as soon as it gets a processor.
 const ROOM_SOON: Duration = Duration::from_secs(1);
 
 /// Connections by number.
@@ -34,7 +34,7 @@ struct Open {
 struct Connection {
     stream: Arc<TcpStream>,
     stage: Stage,
-    /// Whether it holds a place of the user's.
+    /// True if it holds one of the user's places.
     trusted: bool,
 }
 

@@ -1,4 +1,4 @@
-//! What changed between two libraries. Textures are compared in pairs, so that neither is in memory as a whole.
+//! Differences between two libraries. Textures are compared in pairs, so that neither library is in memory as a whole.
 
 use crate::{collection::Collection, error::ApiError, opening::refused};
 use asperity::{
@@ -8,7 +8,7 @@ use asperity::{
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// What `asperity diff --json` prints of two libraries.
+/// Returns the output of `asperity diff --json` for two libraries.
 ///
 /// # Errors
 /// As the command.
@@ -47,7 +47,7 @@ fn places(collection: &Collection) -> BTreeMap<&str, usize> {
     names.map(|(at, name)| (name, at)).collect()
 }
 
-/// What changed of one texture.
+/// Compares the versions of a texture.
 fn compared(name: &str, old: Vec<u8>, now: Vec<u8>) -> Result<Difference, ApiError> {
     let alone = |bytes: Vec<u8>| LoadedLibrary {
         shown: String::new(),

@@ -16,7 +16,7 @@ pub(crate) enum Download {
     Asset,
     /// The asset for the AudioWorklet.
     Worklet,
-    /// What `asperity inspect --json` prints.
+    /// The output of `asperity inspect --json`.
     Json,
     /// Its picture, stored or drawn.
     Picture,

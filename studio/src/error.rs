@@ -1,4 +1,4 @@
-//! What a request is refused with: a status, and the texts of the command.
+//! Errors of requests: a status, and the texts of the command.
 
 use crate::http::Status;
 use asperity_io::diagnostic::{Diagnostic, texts};
@@ -9,9 +9,9 @@ use serde::Serialize;
 pub(crate) struct ApiError {
     /// The status of the answer.
     pub(crate) status: Status,
-    /// What is wrong.
+    /// The problem.
     pub(crate) error: String,
-    /// What to do about it.
+    /// The remedy.
     pub(crate) help: Option<String>,
 }
 
@@ -45,7 +45,7 @@ impl ApiError {
         }
     }
 
-    /// What happens only by a bug.
+    /// An error that only a bug can cause.
     pub(crate) fn panicked() -> Self {
         Self::new(
             Status::Internal,

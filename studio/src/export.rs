@@ -28,21 +28,21 @@ use std::{
 };
 use thiserror::Error;
 
-/// What people can take of a texture from such a page.
+/// Files of a texture that such a page offers for download.
 pub(crate) const OFFERED: [&str; 3] = ["asp", "png", "normal.png"];
-/// What the page itself loads, too.
+/// File that the page itself also loads.
 const LOADED: &str = "worklet.asp";
 /// The file of the compiler.
 pub(crate) const MODULE: &str = "compiler.wasm";
 /// Before which the policy stands in the page, since a static server sends none.
 const BEFORE_POLICY: &str = "<meta name=\"viewport\"";
 
-/// What was written.
+/// Size of an exported page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Exported {
-    /// How many textures.
+    /// Number of textures.
     pub textures: usize,
-    /// How many files.
+    /// Number of files.
     pub files: usize,
     /// Bytes of all files.
     pub bytes: u64,
@@ -58,7 +58,7 @@ pub enum ExportError {
         name: String,
         /// Why.
         error: String,
-        /// What to do about it.
+        /// The remedy.
         help: String,
     },
     /// A file that cannot be written.

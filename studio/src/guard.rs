@@ -11,7 +11,7 @@ use crate::{
 };
 use std::net::{Ipv4Addr, Ipv6Addr};
 
-/// What tells this server's requests from those of others.
+/// Distinguishes this server's requests from foreign ones.
 pub(crate) struct Guard {
     token: Token,
 }
@@ -86,8 +86,8 @@ impl Guard {
     }
 }
 
-/// Whether a host, with or without a port, is this machine whoever is asked for its address. Its port is that of a
-/// tunnel or a proxy where one forwards the request.
+/// Returns true if a host, with or without a port, is this machine without any name lookup. The port may be that of a
+/// tunnel or a proxy that forwards the request.
 fn is_local(host: &str) -> bool {
     let name = match host.rsplit_once(':') {
         Some((name, port)) if port.bytes().all(|b| b.is_ascii_digit()) => name,

@@ -19,7 +19,7 @@ pub(crate) struct LibraryStore {
 
 #[derive(Default)]
 struct Dropped {
-    /// How many there were.
+    /// Total number dropped.
     count: u64,
     /// The last ones, the newest at the end.
     kept: VecDeque<LibraryHandle>,

@@ -8,7 +8,7 @@ use asperity_io::{
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// What a module of WebAssembly begins with, in its first version.
+/// Magic number and version 1 of a WebAssembly module.
 const MAGIC: &[u8] = b"\0asm\x01\0\0\0";
 /// The section in which the module says of which version it is.
 const SECTION: &[u8] = b"asperity-studio";
@@ -73,7 +73,7 @@ impl Module {
     }
 }
 
-/// What the section says; `None` where there is none, or what holds it is no module.
+/// Returns the content of the version section; `None` if there is none, or if the bytes are not a module.
 fn version(bytes: &[u8]) -> Option<&[u8]> {
     let mut rest = bytes.strip_prefix(MAGIC)?;
     loop {

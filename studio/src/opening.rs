@@ -22,10 +22,10 @@ use std::path::Path;
 
 /// Leading bytes that tell what a file is, as for commands.
 const TELLING: usize = 64 << 10;
-/// What can be opened.
+/// File types that can be opened.
 const WANTED: &str = "an asset, a library, a HaTT material, a model, AHAP, .haptic or HJIF";
 
-/// What a file holds.
+/// The content of a file.
 pub(crate) enum Found {
     Texture(Box<Texture>),
     /// A library with several textures.
@@ -111,7 +111,7 @@ fn import(imported: Imported, file: &str, bytes: &[u8]) -> Result<Texture, ApiEr
     Texture::new(compiled.lowered.bytes, making, what).map_err(damaged)
 }
 
-/// What is wrong with a file is no fault of the request.
+/// Returns the error of a request with a bad file: the request itself is valid.
 pub(crate) fn refused(error: &dyn Diagnostic) -> ApiError {
     ApiError {
         status: Status::Unprocessable,

@@ -10,7 +10,7 @@ use asperity::{
 };
 use std::sync::OnceLock;
 
-/// How the prompt compiler is loaded. Whoever gives none has no networks in the program.
+/// Loads the prompt compiler. Programs without the networks pass none.
 pub type LoadPrompts = fn() -> Result<PromptCompiler, Failure>;
 
 /// The prompt compiler, or that there is none.
@@ -27,7 +27,7 @@ pub(crate) struct Loaded {
 }
 
 impl Loaded {
-    /// What mixes and edits.
+    /// Returns the editor, which mixes and edits latents.
     pub(crate) fn editor(&self) -> LatentEditor<'_> {
         LatentEditor::new(&self.compiler)
     }
@@ -41,7 +41,7 @@ impl Prompts {
         }
     }
 
-    /// Whether there is one, loaded or not.
+    /// Returns true if there is a prompt compiler, loaded or not.
     pub(crate) fn exist(&self) -> bool {
         self.load.is_some()
     }

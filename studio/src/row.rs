@@ -1,4 +1,4 @@
-//! What the gallery shows of every texture of a library, in columns.
+//! The gallery's columns: the figures of every texture of a library.
 
 use asperity::{
     emit::raise::raise,
@@ -9,7 +9,7 @@ use asperity::{
 use asperity_formats::Asset;
 use serde::Serialize;
 
-/// One texture.
+/// The figures of a texture.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Row {
     /// The name in the index of its library.
@@ -26,7 +26,7 @@ pub(crate) struct Row {
 struct Columns<'a> {
     id: &'a str,
     name: &'a str,
-    /// What names each texture, where that is known: `api/texture/ID.png` is its picture then.
+    /// Identifier of each texture, where known: `api/texture/ID.png` is then its picture.
     textures: Option<&'a [String]>,
     names: Vec<&'a str>,
     prompts: Vec<Option<&'a str>>,
@@ -39,7 +39,7 @@ struct Columns<'a> {
 }
 
 impl Row {
-    /// What there is to show of an asset.
+    /// Measures the figures of an asset.
     pub(crate) fn of(meter: &mut Meter, name: &str, asset: &Asset<'_>) -> Self {
         let memory = remembered(asset).ok().flatten();
         Self {

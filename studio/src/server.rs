@@ -23,14 +23,14 @@ use std::{
 };
 use thiserror::Error;
 
-/// How long bytes are read that nobody wants. A socket that is closed before takes its last answer with it.
+/// Time for which unwanted bytes are read before a socket is closed; an earlier close would discard its last answer.
 const LINGER: Duration = Duration::from_secs(2);
-/// How long the server waits where the system gives it no socket or thread.
+/// Wait before a retry where the system gives the server no socket or thread.
 const RECOVERY: Duration = Duration::from_millis(20);
-/// How long a client that is turned away may take to read why.
+/// Time for a rejected client to read why.
 const TURNED_AWAY: Duration = Duration::from_millis(50);
 
-/// What clients may take.
+/// Limits on clients.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
     /// Connections at once that know the token, at least 1.
@@ -92,7 +92,7 @@ pub struct Server {
     shared: Arc<Shared>,
 }
 
-/// What the threads of connections share.
+/// State shared by the threads of connections.
 struct Shared {
     guard: Guard,
     studio: Arc<Studio>,
@@ -143,7 +143,7 @@ impl Server {
         format!("http://{}{}", self.address, self.shared.guard.page())
     }
 
-    /// What stops it.
+    /// Returns a handle that stops the server.
     #[must_use]
     pub fn stopper(&self) -> Stopper {
         Stopper {

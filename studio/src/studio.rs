@@ -1,4 +1,4 @@
-//! What the server knows: networks, what it was started with, the last textures.
+//! State of the server: networks, the textures that it was started with, the last textures.
 
 use crate::{
     about::{self, Served},
@@ -26,7 +26,7 @@ pub struct Studio {
     sending: Limiter,
 }
 
-/// What was opened and kept.
+/// An opened file that the server keeps.
 pub(crate) enum Kept {
     Texture(Arc<Texture>),
     Library(LibraryHandle),
@@ -66,7 +66,7 @@ impl Studio {
         let _ = self.prompts.get();
     }
 
-    /// What the server is, JSON.
+    /// Returns the server's version and capabilities, JSON.
     pub(crate) fn about(&self) -> Vec<u8> {
         about::about(
             &self.prompts,
@@ -76,7 +76,7 @@ impl Studio {
         )
     }
 
-    /// What the page is without a server, JSON.
+    /// Returns the capabilities of a page without a server, JSON.
     pub(crate) fn about_exported(&self, served: Served) -> Vec<u8> {
         about::about(&self.prompts, self.start().as_ref(), None, served)
     }
@@ -153,7 +153,7 @@ impl Studio {
         })
     }
 
-    /// What the page gets of a texture, JSON.
+    /// Returns the page's view of a texture, JSON.
     pub(crate) fn shown(&self, texture: &Texture) -> String {
         texture.shown(self.prompts.get().ok())
     }

@@ -43,7 +43,7 @@ pub(crate) struct Texture {
 /// The pictures of a texture as PNG.
 #[derive(Clone)]
 pub(crate) struct Pictures {
-    /// What it looks like: as the asset holds it, or newly drawn where it holds none.
+    /// Its appearance: as stored in the asset, or drawn where the asset has none.
     pub(crate) color: Arc<[u8]>,
     /// Normals in tangent space, green up.
     pub(crate) normal: Arc<[u8]>,
@@ -77,7 +77,7 @@ struct Size {
     width_mm: f64,
 }
 
-/// How a texture came about, as far as anyone wants to know.
+/// Provenance of a texture, as far as it is known.
 #[derive(Default)]
 pub(crate) struct Making<'a> {
     /// The report of a prompt's compilation.
@@ -86,7 +86,7 @@ pub(crate) struct Making<'a> {
     pub(crate) made: Option<Value>,
     /// The name in the index of the library that it was opened from.
     pub(crate) indexed: Option<String>,
-    /// What it was made of.
+    /// The textures that it was derived from.
     pub(crate) others: &'a [&'a Texture],
 }
 
@@ -123,7 +123,7 @@ impl Texture {
         })
     }
 
-    /// What names it: a hash of its bytes.
+    /// Returns its identifier: a hash of its bytes.
     pub(crate) fn id(&self) -> &str {
         &self.id
     }
@@ -138,7 +138,7 @@ impl Texture {
         &self.asset
     }
 
-    /// What `asperity inspect --json` prints of it.
+    /// Returns the output of `asperity inspect --json`.
     pub(crate) fn inspected(&self) -> String {
         inspect::json(&self.document) + "\n"
     }
@@ -187,7 +187,7 @@ impl Texture {
         })
     }
 
-    /// Whether it remembers a latent of the model.
+    /// Returns true if it stores a latent of the loaded model.
     fn is_editable(&self, loaded: &Loaded) -> bool {
         let asset = Asset::parse(&self.asset).ok();
         let memory = asset.and_then(|asset| remembered(&asset).ok().flatten());
@@ -239,7 +239,7 @@ impl Texture {
 
 #[cfg(test)]
 impl Texture {
-    /// One that holds these bytes, which need be no asset, and has this name among others.
+    /// A texture that holds these bytes, which need not be an asset, under this identifier.
     pub(crate) fn of_bytes(id: &str, bytes: &Arc<[u8]>) -> Self {
         let asset =
             asperity::emit::lower::lower(&asperity::sources::builtin::texture(), None).unwrap();
@@ -253,7 +253,7 @@ impl Texture {
     }
 }
 
-/// What names bytes: no two texts share it, even where someone tries.
+/// Returns the identifier of the bytes: a collision-resistant hash.
 pub(crate) fn hash(bytes: &[u8]) -> String {
     let digest = Sha256::digest(bytes);
     digest[..ID_BYTES]

@@ -26,8 +26,8 @@ impl Token {
         &self.0
     }
 
-    /// Whether a guess is this token. How long that takes depends on the guess's length alone, so that no one learns
-    /// the token letter by letter.
+    /// Compares a guess with this token. The time depends on the guess's length alone, so that no one learns the token
+    /// letter by letter.
     pub(crate) fn is(&self, guess: &str) -> bool {
         if guess.len() != self.0.len() {
             return false;

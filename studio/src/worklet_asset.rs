@@ -1,4 +1,4 @@
-//! What the AudioWorklet loads of a texture: at a rate that divides its own, and without a picture.
+//! Assets for the AudioWorklet: resampled to a rate that divides its own, and without a picture.
 
 use asperity::{
     driver,

@@ -1,4 +1,4 @@
-//! What the page gets, byte for byte what the compiler's own calls give.
+//! Answers to the page, byte for byte equal to the compiler's own output.
 
 use crate::client::{SHARED, Site};
 use asperity::{

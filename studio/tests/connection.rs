@@ -23,9 +23,9 @@ struct Expected {
     status: u16,
     /// A part of its body.
     says: String,
-    /// Whether it is the last one.
+    /// True for the last answer of the connection.
     closes: bool,
-    /// Whether it has no body, whatever its head says.
+    /// True if it has no body, whatever its head says.
     bare: bool,
     /// Bytes of the stream after which it must come.
     after: usize,

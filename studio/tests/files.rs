@@ -114,7 +114,7 @@ fn board() -> String {
     xml + "</modelSet>"
 }
 
-/// What `asperity import` makes of such a file on a disk.
+/// Returns the asset that `asperity import` writes for such a file on a disk.
 fn imported(source: &dyn Source, fidelity: Fidelity, preview_px: Option<u32>) -> Vec<u8> {
     let request = Request {
         fidelity,

@@ -1,4 +1,4 @@
-//! What the page sends may come from anyone: prompts that were copied, files that were dropped.
+//! Untrusted input from the page: copied prompts, dropped files.
 
 use crate::client::{Reply, SHARED, Site};
 use asperity::{

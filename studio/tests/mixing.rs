@@ -25,7 +25,7 @@ pub(crate) fn compiled(prompt: &str) -> Vec<u8> {
     compiled.expect("a texture").lowered.bytes
 }
 
-/// What the commands make of a mixture: bytes and report.
+/// Returns the bytes and the report that the commands give for a mixture.
 fn finished(editor: &LatentEditor<'_>, mix: Mix) -> (Vec<u8>, Value) {
     let compiled = driver::compile(&mix.source, &mix.request, &Tools::of(&PROMPTS));
     let compiled = compiled.expect("a texture");

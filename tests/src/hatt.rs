@@ -51,7 +51,7 @@ pub struct Source {
     pub triangles: Vec<[usize; 3]>,
 }
 
-/// One ARMA model of a material.
+/// An ARMA model of a material.
 #[derive(Debug)]
 pub struct SourceModel {
     /// a_1.. of A(z) = 1 + Σ a_k z⁻ᵏ.

@@ -1,15 +1,14 @@
-//! How much work the heavy tests take: `ASPERITY_TEST_SIZE`, `small` without it.
+//! Size of the heavy tests: `ASPERITY_TEST_SIZE`, by default `small`.
 //!
-//! `small` is what a newcomer waits for. `full` is what a claim rests on; `.ci/full` runs it in release.
-//! Neither follows the profile. A test that has both prints the size it ran at, which
-//! `--nocapture` shows.
+//! `small` suits a newcomer's patience. `full` backs the published claims; `.ci/full` runs it in release. Neither
+//! follows the profile. A test that has both prints the size it ran at, which `--nocapture` shows.
 
 use std::fmt::Display;
 
 /// The variable that sets the size of all tests.
 pub const VARIABLE: &str = "ASPERITY_TEST_SIZE";
 
-/// How much work the heavy tests take.
+/// Size of the heavy tests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Size {
     /// A sample of every claim, for a build with checks.

@@ -113,7 +113,7 @@ impl Excess {
     }
 }
 
-/// How often the query jumps from one point to the other.
+/// Interval at which the query jumps from one point to the other.
 #[derive(Debug, Clone, Copy)]
 enum Step {
     Tick,

@@ -1,5 +1,5 @@
-//! What `--fidelity auto` keeps of a HaTT material renders like the whole material. The oracle
-//! compares mixtures over the grid, independently of the reducer's own measure.
+//! HaTT materials reduced by `--fidelity auto` render like the whole material. The oracle compares mixtures over the
+//! grid, independently of the reducer's own measure.
 
 use crate::support;
 use asperity::passes::reduce::Fidelity;
@@ -51,7 +51,7 @@ fn places(texture: &Texture) -> Vec<(f64, f64)> {
     all
 }
 
-/// Whether the cosines are ordered, the condition for a stable filter.
+/// Returns true if the cosines are ordered, the condition for a stable filter.
 fn is_stable(model: &Model) -> bool {
     model.cosines.iter().all(|x| x.abs() < 1.0) && model.cosines.windows(2).all(|p| p[0] > p[1])
 }

@@ -45,7 +45,7 @@ mod control {
         value
     }
 
-    /// What `work` gives with these bits set, and the exceptions that it raised.
+    /// Runs `work` with these bits set. Returns its result and the exceptions raised.
     #[inline(never)]
     pub(super) fn with<T>(bits: u32, work: impl FnOnce() -> T) -> (T, u32) {
         set(DEFAULT | bits);
@@ -192,8 +192,8 @@ fn rest_and_the_smallest_motions_raise_no_exception_on_any_solid() {
     }
 }
 
-/// What refuses to be loaded and prepared while the processor rounds like this; a slot that refuses
-/// keeps what it had.
+/// Returns the errors of loading and preparing while the processor rounds in this mode; a slot that refuses keeps its
+/// former texture.
 fn refusals<A: RenderArithmetic>(bits: u32) -> (Result<(), LoadError>, Option<ConfigError>) {
     let mut slot = Box::new(Texture::<HostCapacities, A>::new());
     load(&NYQUIST_4, &mut slot).expect("a texture");

@@ -18,7 +18,7 @@ const RATE_HZ: f32 = 1000.0;
 const TICK_S: f64 = 1e-3;
 const DEPTH_M: f64 = 2e-3;
 const MU: f64 = 0.4;
-/// One count of position, m.
+/// Position resolution (a count), m.
 const COUNT_M: f64 = 0.055e-3;
 
 /// μ(v) of the surfaces: falls as Stribeck says, falls and rises as powers.
@@ -110,8 +110,8 @@ fn a_slot_tells_the_same_friction_as_the_tick() {
     }
 }
 
-/// Of a texture whose μ falls from 0.8 to 0.3, and of one whose μ is 0.8: noise of a count at rest
-/// has no sign, and the force is no more restless.
+/// With μ falling from 0.8 to 0.3, noise of a count at rest causes no sign change, and the force is no more restless
+/// than with a constant μ of 0.8.
 #[test]
 fn a_law_that_falls_does_not_chatter_at_rest() {
     let restless = |bytes: &[u8]| {

@@ -18,7 +18,7 @@ const SECONDS: usize = 60;
 /// Below this frequency 60 s of a band hold too few independent samples to tell 1 dB from
 /// chance.
 const LOW_HZ: f64 = 25.0;
-/// What a band may be off beside chance, dB.
+/// Largest deviation of a band beyond chance, dB.
 const MOST_DB: f64 = 0.15;
 /// Standard deviations of a band's level that chance may take. The worst of the 2·10⁴ bands that are compared
 /// lies at some four.

@@ -31,7 +31,7 @@ fn through_a_file(whole: &TextureModel, request: &Request, direct: &[u8]) -> Vec
     support::compiled(&source, request).lowered.bytes
 }
 
-/// What an asset holds but where it comes from.
+/// Returns the content of an asset without its provenance.
 fn content(bytes: &[u8]) -> TextureModel {
     TextureModel {
         provenance: Provenance::default(),

@@ -6,7 +6,7 @@ use crate::{
 };
 use std::collections::BTreeSet;
 
-/// What can be reached from a function.
+/// Code reachable from a function.
 #[derive(Debug, Default)]
 pub(crate) struct Reach {
     /// Bytes of code, the function's own included.

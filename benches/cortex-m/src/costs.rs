@@ -16,9 +16,9 @@ struct Cost {
     pole: f64,
     zero: f64,
     triangle: f64,
-    /// Of a law of friction.
+    /// Per friction law.
     law: f64,
-    /// Of a plane, a sphere and a box.
+    /// For a plane, a sphere and a box.
     surfaces: [f64; 3],
 }
 

@@ -1,4 +1,4 @@
-//! What a tick of every design of the experiments costs, for the chart of speed against accuracy.
+//! Cost per tick of every design of the experiments, for the chart of speed against accuracy.
 
 use crate::{emulate, package::Result, target::Target, toolchain::Toolchain};
 use asperity_kernels::{

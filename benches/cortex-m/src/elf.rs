@@ -16,7 +16,7 @@ pub(crate) struct Function {
     pub(crate) data: Vec<(u32, u32)>,
 }
 
-/// What an ELF says.
+/// Sizes and functions of an ELF file.
 #[derive(Debug)]
 pub(crate) struct Elf {
     /// Bytes of code and constants in flash, without the library.

@@ -6,7 +6,7 @@ use crate::{
 };
 use std::{fs, path::Path, process::Command};
 
-/// What came out of the emulator.
+/// Output of an emulator run.
 #[derive(Debug)]
 pub(crate) struct Run {
     /// Lines that the firmware printed: name and value.
@@ -52,7 +52,7 @@ fn qemu(name: &str) -> Command {
     command
 }
 
-/// What a program printed, and the instructions of each tick.
+/// Runs a program in the emulator. Returns its output, and the instructions of each tick.
 fn counted(
     mut emulator: Command,
     program_flag: &str,

@@ -4,7 +4,7 @@ use crate::{measure::Measured, package::Result, target::Target};
 use serde::Deserialize;
 use std::{collections::BTreeMap, fs, path::Path};
 
-/// What a case may cost at most.
+/// Upper limits of a case.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Limit {

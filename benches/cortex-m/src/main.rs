@@ -43,7 +43,7 @@ const USAGE: &str =
   stack            print and limit the stack of every call of the C face
   library          write textures.aspl and costs.aspl, which the session embeds";
 
-/// What is asked for.
+/// Command-line arguments.
 struct Arguments {
     command: String,
     triple: String,

@@ -1,4 +1,4 @@
-//! One case from sources to figures.
+//! Measures a case, from sources to figures.
 
 use crate::{
     calls,
@@ -30,7 +30,7 @@ pub(crate) struct Measured {
     pub(crate) slot_bytes: u64,
     pub(crate) stack_load_bytes: u64,
     pub(crate) stack_tick_bytes: u64,
-    /// What the host printed, by profile.
+    /// Output on the host, by profile.
     host: [(&'static str, String); 2],
 }
 
@@ -50,7 +50,7 @@ impl Measured {
         counts
     }
 
-    /// What half of the ticks do not exceed.
+    /// Returns the median tick, in executed instructions.
     pub(crate) fn median(&self) -> u64 {
         let counts = self.session();
         counts.get(counts.len() / 2).copied().unwrap_or(0)

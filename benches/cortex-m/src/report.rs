@@ -53,7 +53,7 @@ pub(crate) fn print(target: &Target, measured: &[Measured]) {
     });
 }
 
-/// What pages quote: cells of the tables, and what the first case takes.
+/// Returns the figures that pages quote: cells of the tables, and the cost of the first case.
 pub(crate) fn figures(target: &Target, measured: &[Measured]) -> Option<(&'static str, Set)> {
     let (name, processor) = match target.triple {
         "thumbv7em-none-eabihf" => ("cortex_m4f", "Cortex-M4F"),

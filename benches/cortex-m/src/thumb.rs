@@ -1,6 +1,6 @@
 //! Just enough of Thumb to see where control can go.
 
-/// What an instruction does to control.
+/// Control flow of an instruction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Flow {
     /// On to the next, or back to the caller.

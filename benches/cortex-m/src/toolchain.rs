@@ -13,7 +13,7 @@ use std::{
 /// Debian's compiler, whose package of sources core can be built from.
 const DISTRIBUTION_RUSTC: &str = "/usr/bin/rustc";
 
-/// How cargo is called.
+/// Cargo's toolchain and target.
 #[derive(Debug)]
 pub(crate) struct Toolchain {
     /// The linker for core built from source; `None` with an installed target.
@@ -91,7 +91,7 @@ impl Toolchain {
     }
 }
 
-/// What the session prints on the host, in one profile.
+/// Runs the session on the host in a profile, and returns its output.
 pub(crate) fn host_session(case: &str, arithmetic: &str, profile: &str) -> Result<String> {
     let program = host_program("host-session", profile, &[])?;
     stdout(Command::new(program).args([case, arithmetic]))

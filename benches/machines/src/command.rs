@@ -5,7 +5,7 @@ use std::{
     process::Command,
 };
 
-/// What any step can fail with; the text says what to do about it.
+/// Result of any step; the error's text says what to do about it.
 pub type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
 /// Where everything is built.

@@ -12,7 +12,7 @@ use asperity_session::{
 };
 use core::{error::Error, fmt};
 
-/// What a tick computes with.
+/// Arithmetic of a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Numbers {
     /// [`Float`].

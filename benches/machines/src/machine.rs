@@ -14,7 +14,7 @@ pub(crate) struct Machine {
     product: Product,
     /// Runs what was built; its path follows.
     runner: &'static [&'static str],
-    /// What the program is given.
+    /// Arguments of the program.
     arguments: &'static [&'static str],
 }
 

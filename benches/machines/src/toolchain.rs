@@ -12,7 +12,7 @@ const DISTRIBUTION_RUSTC: &str = "/usr/bin/rustc";
 /// The sources of its standard library.
 const DISTRIBUTION_SOURCES: &str = "/usr/lib/rustlib/src";
 
-/// What the session is built as.
+/// Build product of the session.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Product {
     /// A program, with the standard library, linked by this.
@@ -21,7 +21,7 @@ pub(crate) enum Product {
     Module,
 }
 
-/// How cargo is called.
+/// Cargo's toolchain and target.
 #[derive(Debug)]
 pub(crate) struct Toolchain {
     triple: &'static str,
@@ -92,7 +92,7 @@ impl Toolchain {
     }
 }
 
-/// Whether a compiler has a standard library for the machine.
+/// Returns true if a compiler has a standard library for the machine.
 fn has_library(rustc: &str, triple: &str) -> bool {
     let libdir = stdout(Command::new(rustc).args(["--print", "target-libdir", "--target", triple]));
     libdir.is_ok_and(|libdir| Path::new(libdir.trim()).is_dir())

@@ -15,7 +15,7 @@ pub type Nyquist4<A = Float> = Texture<Capacities<40, 56, 4, 0, TAP_SAMPLES>, A>
 /// 100 samples at 10 kHz last 10 ticks at 1 kHz and ring for some more.
 const TAP_SAMPLES: usize = 13 * 40;
 
-/// One measured texture.
+/// A measured texture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Case {
     /// Name of the firmware and of its limits.

@@ -13,7 +13,7 @@ impl Default for Hash {
 }
 
 impl Hash {
-    /// Of nothing.
+    /// Returns the hash of no outputs.
     #[must_use]
     pub const fn new() -> Self {
         Self(0xcbf2_9ce4_8422_2325)

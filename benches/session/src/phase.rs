@@ -5,7 +5,7 @@ use asperity_runtime::Sample;
 /// Ticks of each phase.
 pub const PHASE_TICKS: u32 = 1000;
 
-/// What the stylus, or the device, does.
+/// Behaviour of the stylus, or of the device.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Phase {
     /// 5 mm above the surface.
@@ -24,7 +24,7 @@ pub enum Phase {
     Scrub,
     /// Runs of NaN, infinities and positions out of reach within a stroke.
     NotFinite,
-    /// One stale sample in three, then runs of five.
+    /// Every third sample stale, then runs of five.
     Stale,
     /// Periods missed, 1 to 7 in a row.
     Missed,

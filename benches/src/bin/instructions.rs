@@ -195,7 +195,7 @@ fn many(files: &[String]) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// What several assets take in a motion.
+/// Instructions of several assets in a motion.
 struct Counts {
     least: u64,
     median: u64,
@@ -241,7 +241,7 @@ struct Row {
     ticks: Vec<u64>,
 }
 
-/// What pages quote: the ticks at 1 kHz, and samples the usual way.
+/// Returns the figures that pages quote: the ticks at 1 kHz, and samples the usual way.
 fn figures(rows: &[Row], usual: &[u64]) -> Set {
     let count = |row: &Row| figures::count(row.ticks.iter().copied().max().unwrap_or_default());
     let least = rows[0].ticks.iter().copied().min().unwrap_or_default();

@@ -141,7 +141,7 @@ fn trace(texture: usize, motion: usize) -> Result<Vec<Lines>, Box<dyn Error>> {
     Ok(ticks)
 }
 
-/// What the measured program prints: the mark's address, then start and end of each place.
+/// Parses the measured program's output: the mark's address, then start and end of each place.
 fn read_places(stdout: impl Read) -> Option<Places> {
     let mut numbers = BufReader::new(stdout)
         .lines()

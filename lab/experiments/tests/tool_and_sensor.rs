@@ -24,7 +24,7 @@ use std::sync::LazyLock;
 /// Two rounds of taps.
 const SECONDS: f64 = 42.0;
 const SEED: u64 = 21;
-/// What two tests record, and what an import makes of it with a rigid tool and a height.
+/// Performance recorded by two tests, and its import with a rigid tool and a height.
 static STROKED: LazyLock<Performance> = LazyLock::new(|| {
     let until = Until::Seconds(SECONDS);
     import_accuracy::perform(&builtin::texture(), Strokes::Steady, until, SEED).expect("it renders")

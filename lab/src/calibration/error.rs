@@ -21,7 +21,7 @@ pub enum CalibrationError {
         file: String,
         /// The line, from 1.
         line: u64,
-        /// What is wrong.
+        /// The problem.
         what: String,
     },
     /// The times do not advance evenly.
@@ -31,7 +31,7 @@ pub enum CalibrationError {
         file: String,
         /// The line, from 1.
         line: u64,
-        /// What was found.
+        /// The offending time, s.
         found: f64,
         /// The period of the first rows, s.
         period_s: f64,
@@ -61,9 +61,9 @@ pub enum CalibrationError {
     Implausible {
         /// The file.
         file: String,
-        /// What cannot be right.
+        /// The implausible value.
         what: String,
-        /// What to do about it.
+        /// The remedy.
         remedy: String,
     },
     /// The profile to begin with is refused.

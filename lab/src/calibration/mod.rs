@@ -29,7 +29,7 @@ pub use plausible::{doubts, median_gain};
 /// Least coherence of a measurement that makes a filter.
 pub const LEAST_COHERENCE: f64 = 0.5;
 
-/// What holds the stylus of a simulated measurement: a weak spring, and no hand.
+/// Constraint on the stylus of a simulated measurement: a weak spring, and no hand.
 pub const HELD: Pull = Pull {
     stiffness_n_m: 20.0,
     damping_n_s_m: 0.2,

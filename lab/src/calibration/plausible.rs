@@ -1,5 +1,5 @@
-//! Whether a calibration can be right: its gain against the mass in the profile, its force against
-//! the device's limit, its mean acceleration against gravity, its filter against what a force bears.
+//! Plausibility of a calibration: its gain against the mass in the profile, its force against the device's limit, its
+//! mean acceleration against gravity, its filter against the largest coefficient that a force bears.
 
 use asperity_host::profile::Profile;
 use asperity_host::profile::compensation::{Design, REFERENCE_M_S2_N};
@@ -22,7 +22,7 @@ const ROUNDING: f64 = 1.01;
 /// Factor beyond gravity that no sensor's error explains.
 const GRAVITY_OFF: f64 = 1.25;
 
-/// What of a calibration cannot be right; nothing where all may be. `file` names the table.
+/// Returns the implausible parts of a calibration; empty if it is plausible. `file` names the table.
 #[must_use]
 pub fn doubts(
     file: &str,

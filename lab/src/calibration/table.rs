@@ -93,7 +93,7 @@ impl Measured {
     }
 }
 
-/// Whether the last time follows after the period of the first two; the period where it does not.
+/// Checks that the last step is near the period of the first two times. The error is that period.
 fn even(times_s: &[f64]) -> Result<(), f64> {
     let (&[first, second, ..], &[.., before, last]) = (times_s, times_s) else {
         return Ok(());

@@ -10,7 +10,7 @@
 //! the longest chain of stamps that never go back: a damaged one is in it only where it lies between
 //! its neighbours, and is then wrong by less than their distance.
 
-/// How much a rate that a sensor states may be wrong, as a fraction.
+/// Largest relative error of a sensor's stated rate.
 const MOST_DRIFT: f64 = 0.01;
 
 /// Stamps at either end of a recording, which have neighbours on one side alone.

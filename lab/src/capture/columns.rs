@@ -1,4 +1,4 @@
-//! What the columns of a sensor mean: `t_us,ax_g,ay_g,az_g,fz_N`.
+//! Meanings of a sensor's columns: `t_us,ax_g,ay_g,az_g,fz_N`.
 
 use asperity_recording::description::{Axis, Quantity, Unit};
 
@@ -31,7 +31,7 @@ impl Channel {
     }
 }
 
-/// What a column holds.
+/// The content of a column.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Column {
     /// The sensor's own clock, in units of so many seconds.
@@ -105,7 +105,7 @@ impl Layout {
         })
     }
 
-    /// Whether a quantity is measured.
+    /// Returns true if the quantity is measured.
     #[must_use]
     pub fn has(&self, quantity: Quantity) -> bool {
         self.channels().any(|channel| channel.quantity == quantity)
@@ -118,7 +118,7 @@ impl Layout {
             .position(|c| c.quantity == Quantity::Force && c.axis == Axis::Z)
     }
 
-    /// Whether the sensor has a clock of its own.
+    /// Returns true if the sensor has a clock of its own.
     #[must_use]
     pub fn has_clock(&self) -> bool {
         self.0.iter().any(|c| matches!(c, Column::Clock(_)))

@@ -1,4 +1,4 @@
-//! How long every cell of the grid of forces and speeds was stroked.
+//! Dwell time in each cell of the force-speed grid.
 
 /// Most edges of an axis.
 const MOST: usize = 17;
@@ -9,7 +9,7 @@ const MOST: usize = 17;
 pub struct GridError {
     /// `speeds` or `forces`.
     pub axis: &'static str,
-    /// What is wrong.
+    /// The problem.
     pub why: String,
 }
 
@@ -102,7 +102,7 @@ impl Coverage {
         force * self.bands().0 + speed
     }
 
-    /// What part of its seconds a cell has, at most 1.
+    /// Returns the fraction of its required time that a cell has, at most 1.
     #[must_use]
     pub fn part(&self, cell: (usize, usize)) -> f64 {
         (self.seconds[self.index(cell)] / self.need_s).min(1.0)
@@ -119,7 +119,7 @@ impl Coverage {
         )
     }
 
-    /// Whether every cell has all of its seconds.
+    /// Returns true if every cell has its required time.
     #[must_use]
     pub fn is_covered(&self) -> bool {
         let (covered, cells) = self.covered();

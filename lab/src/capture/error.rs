@@ -12,7 +12,7 @@ pub enum SensorError {
     Name {
         /// As it was given.
         name: String,
-        /// What is wrong.
+        /// The problem.
         why: String,
     },
     /// It cannot be opened.
@@ -36,22 +36,22 @@ pub enum SensorError {
     Stalled {
         /// The port or file.
         name: String,
-        /// What did not happen.
+        /// The event that did not happen.
         what: &'static str,
-        /// How long.
+        /// The wait, s.
         seconds: u64,
     },
     /// It was unplugged, or whoever wrote has gone.
     #[error("{0}: the data ended; was the sensor unplugged?")]
     Ended(String),
-    /// What came is not the line protocol.
+    /// The data is not the line protocol.
     #[error("{name}: {count} consecutive lines are not samples, such as `{example}`")]
     Garbage {
         /// The port.
         name: String,
-        /// How many.
+        /// Consecutive bad lines.
         count: u32,
-        /// One of them, shortened and escaped.
+        /// A bad line, shortened and escaped.
         example: String,
     },
     /// A line does not end.
@@ -67,7 +67,7 @@ pub enum SensorError {
     Header {
         /// The port or file.
         name: String,
-        /// What is wrong.
+        /// The problem.
         why: String,
     },
     /// Its own clock or count went back.
@@ -85,7 +85,7 @@ pub enum SensorError {
     Changed {
         /// The file.
         name: String,
-        /// What happened to it.
+        /// The change.
         what: &'static str,
     },
 }

@@ -1,4 +1,4 @@
-//! What the tool does, as it happens: rests in the air, taps, strokes steadily. And what is lacking.
+//! Online detection of the tool's motion (rest in the air, taps, steady strokes), and of the next step.
 
 use super::coverage::Coverage;
 use std::collections::VecDeque;
@@ -7,7 +7,7 @@ use std::collections::VecDeque;
 const PIECE_S: f64 = 0.025;
 /// Pieces of a stretch that counts if it is steady.
 const STRETCH: usize = 4;
-/// How far speed and load may vary within a stretch: a part of their mean, and mm/s or N.
+/// Largest deviation of speed and load within a steady stretch: a fraction of their mean, or mm/s and N if larger.
 const STEADY: (f64, f64, f64) = (0.3, 10.0, 0.12);
 /// Time in the air that tells a force sensor's bias, s, and how far its load may vary meanwhile, N.
 const REST_S: f64 = 2.0;
@@ -21,7 +21,7 @@ const LANDING_S: (f64, f64) = (0.04, 0.008);
 /// Bands of impact speed, m/s: their edges.
 pub const TAPS_M_S: [f64; 5] = [0.03, 0.075, 0.15, 0.25, 0.5];
 
-/// What is wanted of a recording.
+/// Requirements of a recording.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
     /// The grid of strokes.
@@ -30,22 +30,22 @@ pub struct Plan {
     pub taps: u32,
     /// Seconds in the air.
     pub air_s: f64,
-    /// Whether the load is a sensor's, with a bias that must be found, or the loop's.
+    /// True if the load is a force sensor's, with a bias to estimate; false if it is the loop's.
     pub is_sensor: bool,
 }
 
-/// What the tool does now.
+/// Current motion of the tool.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Now {
     /// Speed in the plane, mm/s.
     pub speed_mm_s: f64,
     /// Load without its bias, N.
     pub load_n: f64,
-    /// Whether it touches; `None` while the bias is not known.
+    /// True in contact; `None` until the bias is known.
     pub touches: Option<bool>,
 }
 
-/// What is to be done next.
+/// The next step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ask {
     /// Hold the tool in the air.
@@ -255,13 +255,13 @@ impl Exploration {
         }
     }
 
-    /// What the tool does now.
+    /// Returns the current motion of the tool.
     #[must_use]
     pub fn now(&self) -> Now {
         self.now
     }
 
-    /// What was stroked.
+    /// Returns the grid of strokes so far.
     #[must_use]
     pub fn coverage(&self) -> &Coverage {
         &self.plan.coverage
@@ -279,7 +279,7 @@ impl Exploration {
         self.air_s
     }
 
-    /// What is to be done next.
+    /// Returns the next step.
     #[must_use]
     pub fn ask(&self) -> Ask {
         if self.bias_n.is_none() || self.air_s < self.plan.air_s {

@@ -21,7 +21,7 @@ const SAME_S: f64 = 1e-8;
 /// Shortest recording that is kept, s.
 const LEAST_S: f64 = 1.0;
 
-/// What a recording says of itself.
+/// Metadata of a recording.
 #[derive(Debug, Clone, PartialEq)]
 pub struct About {
     /// Name of the material.
@@ -38,7 +38,7 @@ pub struct About {
     pub full_force: Option<f64>,
 }
 
-/// What of a take makes a recording: the time that both files cover without a long gap.
+/// The usable part of a take: the time that both files cover without a long gap.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
     /// Samples whose time stamps are believed, and their times on the loop's clock, s.
@@ -48,11 +48,11 @@ pub struct Part {
     samples: Range<usize>,
     /// When it begins on the loop's clock, s.
     begin_s: f64,
-    /// How long it is, s.
+    /// Duration, s.
     pub seconds: f64,
     /// Samples a second.
     pub rate_hz: f64,
-    /// Whether what came after a gap was left out.
+    /// True if the data after a gap was dropped.
     pub is_cut: bool,
     /// Samples that were left out because their time stamps were damaged.
     pub misdated: usize,
@@ -74,7 +74,7 @@ fn unbroken(times_s: &[f64]) -> usize {
     gap.map_or(times_s.len(), |before| before + 1)
 }
 
-/// What of a take is worth keeping; `None` where device and sensor have less than a second together.
+/// Returns the usable part of a take; `None` where device and sensor overlap for less than a second.
 #[must_use]
 pub fn part(take: &Take) -> Option<Part> {
     let (believed, times_s) = take.timed();

@@ -1,4 +1,4 @@
-//! What is written is what an import reads, gaps and missing values included.
+//! Round trip: an import reads a written folder back, gaps and missing values included.
 
 use super::*;
 use crate::capture::{Batch, Coverage, Layout, Plan, Samples, Told};

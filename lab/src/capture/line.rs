@@ -66,7 +66,7 @@ impl LineDecoder {
         self.layout.as_ref()
     }
 
-    /// What came so far.
+    /// Returns the counts so far.
     #[must_use]
     pub fn counts(&self) -> Counts {
         self.counts

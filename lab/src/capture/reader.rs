@@ -29,7 +29,7 @@ pub struct Batch {
     pub samples: Samples,
 }
 
-/// What a sensor told of itself.
+/// The sensor's own description.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Told {
     /// Its columns.
@@ -80,13 +80,13 @@ impl Reader {
         self.batches.try_recv().ok()
     }
 
-    /// Whether nothing more will come; [`end`](Self::end) says why.
+    /// Returns true if no more samples will come; [`end`](Self::end) says why.
     #[must_use]
     pub fn is_over(&self) -> bool {
         self.thread.is_finished()
     }
 
-    /// What the sensor told of itself, once a sample came.
+    /// Returns the sensor's own description, once a sample has come.
     #[must_use]
     pub fn told(&self) -> Option<&Told> {
         self.told.get()

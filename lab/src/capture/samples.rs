@@ -10,20 +10,20 @@ pub struct Samples {
 }
 
 impl Samples {
-    /// How many.
+    /// Returns the number of samples.
     #[must_use]
     pub fn len(&self) -> usize {
         self.own.len()
     }
 
-    /// Whether there is none.
+    /// Returns true if there are no samples.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.own.is_empty()
     }
 }
 
-/// What a sensor sent so far.
+/// Totals received from a sensor.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Samples.

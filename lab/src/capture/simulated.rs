@@ -19,7 +19,7 @@ const RATE_HZ: f64 = 5000.0;
 const CORNER_HZ: f64 = 1600.0;
 /// Its noise, g/√Hz.
 const NOISE_G: f64 = 80e-6;
-/// How much slower its clock is, as a fraction, and what it shows in the beginning, s.
+/// Fraction by which its clock runs slow, and the clock's first reading, s.
 const DRIFT: f64 = 40e-6;
 const BEGIN_S: f64 = 3.21;
 /// Ticks before and after those whose samples are sent: half the filter of the hand's motion, and

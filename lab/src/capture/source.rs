@@ -21,7 +21,7 @@ pub trait Source: Send {
     /// Seconds in a unit of the sensor's own time, if it states them.
     fn stated_scale(&self) -> Option<f64>;
 
-    /// What came so far.
+    /// Returns the counts so far.
     fn counts(&self) -> Counts;
 
     /// Its name, for errors.

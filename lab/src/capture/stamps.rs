@@ -11,15 +11,15 @@ const ANEW: usize = 64;
 /// The stamps of a sensor, in its own unit.
 #[derive(Debug, Default)]
 pub(super) struct Stamps {
-    /// What its wraps add.
+    /// Offset added by its wraps.
     wrapped: f64,
     /// The newest that follow each other.
     recent: VecDeque<f64>,
-    /// Whether more than those followed each other.
+    /// True if the run was longer than `recent` holds.
     is_long: bool,
     /// Stamps in a row that follow each other, and not the former.
     rival: Vec<f64>,
-    /// How many of the former the rival takes back, if it is right.
+    /// Number of the recent stamps that the rival replaces, if it is right.
     takes_back: usize,
 }
 

@@ -126,7 +126,7 @@ impl Take {
         self.batches.push((self.samples.len(), arrived_s));
     }
 
-    /// What was visited, and what is to be done next.
+    /// Returns the exploration: its coverage and the next step.
     #[must_use]
     pub fn exploration(&self) -> &Exploration {
         &self.exploration
@@ -138,7 +138,7 @@ impl Take {
         self.load
     }
 
-    /// Whether an import would keep no more.
+    /// Returns true if an import would keep no more.
     #[must_use]
     pub fn is_full(&self) -> bool {
         // A time takes as much room as two values.
@@ -151,8 +151,7 @@ impl Take {
         self.rate_hz
     }
 
-    /// Whether the sensor's own time is fine enough to tell samples apart that lie so far from each
-    /// other.
+    /// Returns true if the sensor's own time resolves samples `period_s` apart.
     pub(super) fn tells_samples_apart(&self, period_s: f64) -> bool {
         let columns = self.told.iter().flat_map(|told| told.layout.columns());
         columns.into_iter().all(|column| match column {
@@ -167,7 +166,7 @@ impl Take {
         &self.touches
     }
 
-    /// What the sensor measures.
+    /// Returns the channels that the sensor measures.
     #[must_use]
     pub fn channels(&self) -> Vec<Channel> {
         let told = self.told.iter();

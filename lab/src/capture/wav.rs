@@ -40,7 +40,7 @@ pub struct Wav {
     bytes: Vec<u8>,
 }
 
-/// What full scale is: g of an acceleration, N of a force.
+/// Full scale: g of an acceleration, N of a force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Full {
     /// In the units of acceleration channels.
@@ -230,7 +230,7 @@ impl Source for Wav {
     }
 }
 
-/// Whether the path leads to another file than the open one.
+/// Returns true if the path leads to another file than the open one.
 #[cfg(unix)]
 fn is_another(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt as _;

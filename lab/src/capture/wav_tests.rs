@@ -22,7 +22,7 @@ fn header(channels: u16, bits: u16, rate_hz: u32) -> Vec<u8> {
     bytes
 }
 
-/// What is done to a file, and what is said of it.
+/// A complaint, and the damage to a file that provokes it.
 type Damage = (&'static str, fn(&Path));
 
 struct Growing {

@@ -1,4 +1,4 @@
-//! What cannot be rendered in a device's voice.
+//! Errors of compensating a texture for a device.
 
 use asperity::emit::lower::LowerError;
 use asperity_formats::{EncodeError, FormatError};

@@ -1,4 +1,4 @@
-//! One texture on devices that differ by 24 dB, through the renderer and the simulated devices.
+//! A single texture on devices that differ by 24 dB, through the renderer and the simulated devices.
 
 use super::*;
 use crate::calibration::{HELD, simulate};

@@ -1,4 +1,4 @@
-//! What can go wrong while a session is run and reported.
+//! Errors of running and reporting a session.
 
 use asperity_io::diagnostic::Diagnostic;
 use asperity_runtime::LoadError;

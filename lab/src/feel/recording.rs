@@ -22,15 +22,15 @@ pub struct Recording {
     pub motions: Vec<Motion>,
     /// Every tick.
     pub records: Vec<Record>,
-    /// What the renderer counted.
+    /// The renderer's counters.
     pub counters: Counters,
-    /// What the device counted.
+    /// The device's counters.
     pub device_counts: DeviceCounts,
     /// Slew limit of the renderer, N/s.
     pub slew_limit_n_s: f64,
 }
 
-/// What the reports say about a texture.
+/// Facts about a texture, for the reports.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TextureFacts {
     /// Its name.

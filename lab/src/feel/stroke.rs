@@ -8,7 +8,7 @@ use super::statistics::{mean, rms};
 use asperity_sim::hand::Motion;
 use asperity_sim::session::Record;
 
-/// One stroke over its steady part.
+/// A stroke over its steady part.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct StrokeReport {
     /// When its steady part starts and ends, s.

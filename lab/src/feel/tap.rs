@@ -7,7 +7,7 @@ use super::recording::Recording;
 use super::statistics::peak;
 use asperity_sim::hand::Motion;
 
-/// One scripted tap.
+/// A scripted tap.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TapReport {
     /// When the surface was truly met, s; `None` if it never was.

@@ -1,6 +1,6 @@
-//! How punctual a servo loop is: tables, JSON, pictures.
+//! Latency and jitter of a servo loop: tables, JSON, pictures.
 //!
-//! [`asperity_host::latency`] measures; what a person or a program reads is made here.
+//! [`asperity_host::latency`] measures; this module renders the results for people and programs.
 
 mod chart;
 mod csv;

@@ -24,7 +24,7 @@ pub enum ServoSessionError {
     Format {
         /// The file.
         origin: String,
-        /// What is wrong.
+        /// The format error.
         cause: FormatError,
     },
     /// The texture does not fit the slot or the servo rate.
@@ -32,7 +32,7 @@ pub enum ServoSessionError {
     Load {
         /// The file.
         origin: String,
-        /// What is wrong.
+        /// The load error.
         cause: LoadError,
     },
     /// The scene does not fit.
@@ -40,7 +40,7 @@ pub enum ServoSessionError {
     Scene {
         /// The file.
         origin: String,
-        /// What is wrong.
+        /// The scene error.
         cause: SceneError,
     },
     /// The texture does not take the filter of a profile.
@@ -48,7 +48,7 @@ pub enum ServoSessionError {
     Voice {
         /// The file.
         origin: String,
-        /// What is wrong.
+        /// The compensation error.
         cause: CompensationError,
     },
     /// The profile of the device is refused.

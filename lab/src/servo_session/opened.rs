@@ -12,13 +12,13 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 pub struct OpenDevice {
     /// The device.
     pub device: Box<dyn Device>,
-    /// What its own mechanics absorb: those of a Touch where nobody knows better.
+    /// Damping and friction of its mechanism; a Touch's where unknown.
     pub mechanics: MechanicsConfig,
-    /// What a profile says of it, if one was given: it counts more than the above.
+    /// Its profile, if one was given; takes precedence over `mechanics`.
     pub profile: Option<Profile>,
-    /// How many periods lie between two of its readings.
+    /// Pacing of its readings.
     pub pace: LoopPace,
-    /// What a recording says of the session that it holds.
+    /// The recorded session, for a recording.
     pub replayed: Option<Replayed>,
 }
 
@@ -52,20 +52,20 @@ impl OpenDevice {
     }
 }
 
-/// What a recording says of the session that it holds.
+/// The session held by a recording.
 #[derive(Debug, Clone)]
 pub struct Replayed {
     /// Its conditions.
     pub conditions: Conditions,
-    /// How many other textures played after the first.
+    /// Number of texture changes after the first texture.
     pub exchanges: usize,
     /// Ticks that were not recorded.
     pub lost: u64,
-    /// How many forces repeat.
+    /// Forces that repeat.
     pub repeated: Arc<Repeated>,
 }
 
-/// How many forces of a replay are those of the recording.
+/// Forces of a replay compared with those of the recording.
 #[derive(Debug, Default)]
 pub struct Repeated {
     pub(super) forces: AtomicU64,

@@ -12,7 +12,7 @@ use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::sync::{Arc, OnceLock};
 use std::thread::{self, JoinHandle};
 
-/// How ticks are written.
+/// Output format of the ticks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
     /// A table (CSV).
@@ -49,7 +49,7 @@ impl Form {
 /// Records that wait for a slow disk, at most; later ones are lost, and counted.
 const WAITING: usize = 100_000;
 
-/// What goes to the thread that writes.
+/// A batch for the writer thread.
 #[derive(Debug, Default)]
 struct Batch {
     /// Textures that play in these records or later.
@@ -59,7 +59,7 @@ struct Batch {
     lost: u64,
 }
 
-/// What was written.
+/// A finished record.
 #[derive(Debug)]
 pub struct Written {
     /// The file, which [`Outputs::commit`] gives its name.

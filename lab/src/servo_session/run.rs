@@ -1,4 +1,4 @@
-//! One run of a servo loop on its thread.
+//! Runs a servo loop on its thread.
 
 use super::error::ServoSessionError;
 use super::surface::Surface;
@@ -16,7 +16,7 @@ use std::sync::atomic::AtomicBool;
 use std::thread;
 use std::time::Duration;
 
-/// How a loop is run.
+/// Setup of a loop.
 pub struct Setup<'s> {
     /// Configuration of the renderer.
     pub config: Config,
@@ -24,7 +24,7 @@ pub struct Setup<'s> {
     pub settings: Settings,
     /// The clock, which may spin.
     pub clock: Monotonic,
-    /// What the system is asked for.
+    /// Privileges requested from the system.
     pub wanted: Wanted,
     /// A delay that is put in on purpose.
     pub injection: Option<Injection>,
@@ -34,11 +34,11 @@ pub struct Setup<'s> {
     pub stop: &'s AtomicBool,
 }
 
-/// What whoever attends to a running loop is given.
+/// Arguments of the function that attends to a running loop.
 pub struct Attended<'r, 'q, 'a, 'scope> {
     /// The loop.
     pub servo: &'r Servo<'scope>,
-    /// What the system granted and refused.
+    /// Privileges that the system granted and refused.
     pub grants: &'r [Grant],
     /// Takes other textures; a scene stays what it is.
     pub preparer: Option<&'r mut Preparer<'q, 'a>>,

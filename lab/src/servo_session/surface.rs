@@ -1,4 +1,4 @@
-//! What is touched: a texture, or a scene of several.
+//! The touched surface: a texture, or a scene of several.
 
 use super::error::ServoSessionError;
 use crate::compensation;
@@ -9,7 +9,7 @@ use asperity_host::servo::RATES_HZ;
 use asperity_io::shown::counted;
 use std::path::Path;
 
-/// What is touched, as checked bytes.
+/// The touched surface, as checked bytes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surface {
     /// Where it came from.
@@ -18,7 +18,7 @@ pub struct Surface {
     pub name: String,
     /// The bytes of an asset, or of a library with a scene.
     pub bytes: Vec<u8>,
-    /// Whether it is a scene.
+    /// True for a scene.
     pub is_scene: bool,
     /// Rate of the models, Hz.
     pub models_hz: f32,

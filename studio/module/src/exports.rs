@@ -9,7 +9,7 @@ use asperity::{learned::inference::Backend, sources::prompt::PromptCompiler};
 use asperity_studio::{Reply, Studio};
 use std::{cell::RefCell, sync::OnceLock};
 
-/// What the module is, in a section of its own, so that a program that reads the file knows without running it.
+/// The module's version, in a section of its own, so that programs can read it from the file without running it.
 #[used]
 #[unsafe(link_section = "asperity-studio")]
 static VERSION: [u8; asperity_studio::VERSION.len()] = {

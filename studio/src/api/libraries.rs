@@ -8,7 +8,7 @@ use crate::{
     studio::Studio,
 };
 
-/// What is wanted of a library: the path below `api/library/`.
+/// A resource of a library: the path below `api/library/`.
 #[derive(Debug, PartialEq, Eq)]
 enum Wanted<'a> {
     /// `LIB.json`

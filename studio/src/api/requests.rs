@@ -55,7 +55,7 @@ struct One {
     texture: String,
 }
 
-/// How an address answers the bytes of a request with a texture.
+/// A handler that answers the bytes of a request with a texture.
 pub(super) type Make = fn(&Studio, &[u8]) -> Result<Arc<Texture>, ApiError>;
 
 /// Such an address, by its path.

@@ -7,16 +7,16 @@ use std::collections::VecDeque;
 /// Texts that are kept.
 const MOST_TEXTS: usize = 32;
 
-/// What is to be said of a loop as a whole.
+/// Status of a loop as a whole.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct LiveStatus {
     /// Name of the texture that plays.
     pub playing: String,
     /// Periods that were missed since the loop began.
     pub missed: u64,
-    /// How late the loop woke since it began, µs.
+    /// Wake-up latency since the loop began, µs.
     pub wakeup_us: Percentiles,
-    /// What a tick of the runtime took since it began, µs.
+    /// Compute time of the runtime's tick since the loop began, µs.
     pub compute_us: Percentiles,
 }
 
@@ -25,9 +25,9 @@ pub struct LiveStatus {
 pub struct Percentiles {
     /// The median.
     pub p50: f64,
-    /// One in a hundred is larger.
+    /// The 99th percentile.
     pub p99: f64,
-    /// One in a thousand is larger.
+    /// The 99.9th percentile.
     pub p99_9: f64,
     /// The largest.
     pub max: f64,
@@ -36,7 +36,7 @@ pub struct Percentiles {
 /// News for the page.
 #[derive(Serialize)]
 struct News<'a> {
-    /// What to ask for next.
+    /// Number to pass as `after` in the next request.
     next: u64,
     /// Ticks that are not kept any more.
     lost: u64,
@@ -111,12 +111,12 @@ impl Feed {
         self.ended = true;
     }
 
-    /// Whether whoever has the ticks before `after` has not seen all.
+    /// Returns true if there is news for a client that has the ticks before `after`.
     pub(crate) fn has_news(&self, after: Option<u64>) -> bool {
         self.ended || after.is_none_or(|after| after != self.published)
     }
 
-    /// What was published from the number `after` on, JSON.
+    /// Returns the ticks published from number `after` on, JSON.
     pub(crate) fn after(&self, after: Option<u64>) -> String {
         let oldest = self.published - self.ticks.len() as u64;
         // A number of another loop, before the server was started again, is none of this one.

@@ -47,7 +47,7 @@ pub struct Wanted {
     pub asset: Arc<[u8]>,
 }
 
-/// What the page knows of a device before anything else.
+/// A device's description, which the page gets before anything else.
 #[derive(Serialize)]
 pub(crate) struct Description<'a> {
     name: &'a str,
@@ -122,7 +122,7 @@ impl LiveDevice {
         });
     }
 
-    /// What was published after the tick numbered `after`, JSON; of all that is kept where that is `None`. Waits at most
+    /// Returns the ticks published from number `after` on, or all that are kept if it is `None`, JSON. Waits up to
     /// `patience` for something to be published.
     pub(crate) fn news(&self, after: Option<u64>, patience: Duration) -> String {
         let deadline = Instant::now() + patience;

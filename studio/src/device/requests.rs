@@ -1,4 +1,4 @@
-//! What the page asks of the device.
+//! The page's requests to the device.
 
 use super::LiveDevice;
 use crate::{
@@ -8,7 +8,7 @@ use crate::{
 };
 use std::time::Duration;
 
-/// How long a request waits for ticks. Less than the page's patience with a server that does not answer.
+/// Longest wait of a request for ticks. Shorter than the page's timeout for a server that does not answer.
 const PATIENCE: Duration = Duration::from_millis(500);
 
 /// `GET api/device/ticks?after=N`: what was published from N on, which is `next` of the answer before.

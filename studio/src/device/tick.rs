@@ -1,6 +1,6 @@
-//! One tick of a servo loop, as the page plots it.
+//! A servo-loop tick, as the page plots it.
 
-/// One tick of a servo loop. What is not finite is shown as 0.
+/// A servo-loop tick. Non-finite values are shown as 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LiveTick {
     /// Ticks since the loop began; one that was lost on the way leaves a gap.

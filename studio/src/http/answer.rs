@@ -7,8 +7,8 @@ use std::{
     sync::Arc,
 };
 
-/// What the page may load, run and send to: its own server alone. WebAssembly is compiled in the worklet; pictures may
-/// come from memory. The page itself may state this much.
+/// Content security policy of the page: it may load, run and send to its own server alone. WebAssembly is compiled in
+/// the worklet; pictures may come from memory. This much may also stand in the page itself.
 pub(crate) const PAGE_POLICY: &str = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; \
      img-src 'self' blob: data:; connect-src 'self'; worker-src 'self'; font-src 'self'; base-uri 'none'; \
      form-action 'none'";
@@ -69,7 +69,7 @@ impl Content {
     }
 }
 
-/// How long a browser may keep an answer.
+/// Cache lifetime of an answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Keep {
     /// Not at all.

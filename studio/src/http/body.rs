@@ -20,7 +20,7 @@ enum Source<'a, 's> {
     Connection {
         /// With the deadline of the request.
         stream: &'a mut Timed<'s>,
-        /// What came with the head.
+        /// Bytes that came with the head.
         buffer: &'a mut Vec<u8>,
         expects_continue: bool,
     },
@@ -56,7 +56,7 @@ impl<'a, 's> Body<'a, 's> {
         }
     }
 
-    /// Whether nothing of it is left on the connection.
+    /// Returns true if none of it is left on the connection.
     pub(crate) fn is_over(&self) -> bool {
         self.read || self.length == 0
     }

@@ -9,14 +9,14 @@ const MOST_BYTES: usize = 16 << 10;
 /// Headers of a head at most; browsers send about fifteen.
 const MOST_HEADERS: usize = 64;
 
-/// What a request asks for.
+/// The request method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Method {
     #[default]
     Get,
     Head,
     Post,
-    /// One that nothing here answers.
+    /// A method that nothing here answers.
     Other,
 }
 
@@ -31,9 +31,9 @@ pub(crate) struct Head {
     pub(crate) fetch_site: Option<String>,
     /// Bytes of the body.
     pub(crate) length: u64,
-    /// Whether the client waits for a word before it sends the body.
+    /// True if the client waits for `100 Continue` before it sends the body.
     pub(crate) expects_continue: bool,
-    /// Whether the client wants no further request on this connection.
+    /// True if the client wants no further request on this connection.
     pub(crate) closes: bool,
 }
 
@@ -161,7 +161,7 @@ fn too_large() -> ApiError {
     )
 }
 
-/// What came too slowly.
+/// The error of a request that came too slowly.
 pub(super) fn slow() -> ApiError {
     ApiError::new(
         Status::Timeout,

@@ -1,4 +1,4 @@
-//! How a texture came about, and the commands that write its bytes again.
+//! Provenance of a texture, and the commands that reproduce its bytes.
 
 #[cfg(test)]
 mod tests;
@@ -19,7 +19,7 @@ pub(crate) struct Recipe(Vec<Arc<Step>>);
 
 /// A step, which gives one texture.
 struct Step {
-    /// What names the bytes of its texture.
+    /// Identifier of its texture's bytes.
     id: String,
     /// The name of its texture.
     name: String,
@@ -31,11 +31,11 @@ struct Step {
 pub(crate) struct Opened {
     /// Its path, or its name alone where it was dropped on the page.
     pub(crate) path: String,
-    /// What tells it from others of this path.
+    /// Identifier that distinguishes it from others of this path.
     pub(crate) id: String,
 }
 
-/// What a step does. Other textures are named by what names their bytes.
+/// Operation of a step. Other textures are named by the identifiers of their bytes.
 pub(crate) enum What {
     /// A file holds the texture.
     File(Opened),
@@ -225,8 +225,8 @@ impl What {
         }
     }
 
-    /// Whether a command line can hold it, which ends texts at U+0000. Files with control characters in their names are
-    /// for no one to type.
+    /// Returns true if a command line can hold it: arguments end at U+0000, and paths with control characters cannot be
+    /// typed.
     fn is_sayable(&self) -> bool {
         let text = match self {
             Self::Compile { prompt, .. } => Some(prompt),

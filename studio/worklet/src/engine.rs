@@ -15,7 +15,7 @@ pub const MAX_TICKS: usize = MAX_FRAMES / FACTOR + 1;
 /// Frames a second.
 const FRAME_HZ: f64 = RATE_HZ as f64 * FACTOR as f64;
 
-/// What a call of [`Engine::process`] gives.
+/// Output of [`Engine::process`].
 #[derive(Debug, Clone)]
 pub struct Block {
     /// Ticks rendered.

@@ -168,7 +168,7 @@ extern "C" fn refused_rate_hz() -> f32 {
     *REFUSED_RATE_HZ.get()
 }
 
-/// How many swaps of the session have begun to play.
+/// Returns the number of the session's swaps that have begun to play.
 #[unsafe(no_mangle)]
 extern "C" fn swaps() -> u32 {
     ENGINE.get().session().map_or(0, Session::swaps)

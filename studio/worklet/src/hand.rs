@@ -44,7 +44,7 @@ const SETTLED_MM: f64 = 1.0e-9;
 /// Height above the surface before the first event, mm.
 const START_MM: f64 = 10.0;
 
-/// One event of a pointer.
+/// A pointer event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pointer {
     /// Time, s.
@@ -57,7 +57,7 @@ pub struct Pointer {
 }
 
 impl Pointer {
-    /// Whether every number is finite and the position within [`LARGEST_MM`].
+    /// Returns true if every number is finite and the position is within [`LARGEST_MM`].
     #[must_use]
     pub fn is_valid(&self) -> bool {
         self.time_s.is_finite()
@@ -205,7 +205,7 @@ impl Hand {
     }
 }
 
-/// One step of a one-pole.
+/// Advances a one-pole low-pass by a step.
 fn smooth(from_mm: f64, to_mm: f64) -> f64 {
     let next_mm = from_mm + SMOOTHING * (to_mm - from_mm);
     if (to_mm - next_mm).abs() < SETTLED_MM {

@@ -1,4 +1,4 @@
-//! What is rendered: the runtime as `asperity render --rate 16000` sets it up.
+//! The rendering session: the runtime as `asperity render --rate 16000` sets it up.
 
 use crate::hand::RATE_HZ;
 use asperity_runtime::{
@@ -18,7 +18,7 @@ pub struct Tick {
     pub columns: [f32; 9],
     /// `flags`.
     pub flags: u32,
-    /// What a tool with the effective mass of the texture feels: vibration and tap as one
+    /// Acceleration of a tool with the effective mass of the texture: vibration and tap as one
     /// acceleration, `vib_m_s2` + `tap_n`/m_eff, m/s².
     pub acceleration_m_s2: f32,
 }
@@ -38,7 +38,7 @@ pub fn config() -> Config {
     }
 }
 
-/// One rendering, from its first tick on.
+/// A rendering, from its first tick on.
 pub struct Session<'q, 'a> {
     renderer: Renderer,
     preparer: Preparer<'q, 'a>,
@@ -116,7 +116,7 @@ impl<'q, 'a> Session<'q, 'a> {
         }
     }
 
-    /// How many swaps have begun to play.
+    /// Returns the number of swaps that have begun to play.
     #[must_use]
     pub const fn swaps(&self) -> u32 {
         self.swaps

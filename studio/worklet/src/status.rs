@@ -1,8 +1,8 @@
-//! What an export returns, as a number.
+//! Status codes of the exports.
 
 use asperity_runtime::{LoadError, PrepareError};
 
-/// What an export returns. `page/worklet.js` has the same numbers.
+/// Status code of an export. `page/worklet.js` has the same numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u32)]
 pub enum Status {

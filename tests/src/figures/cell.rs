@@ -1,4 +1,4 @@
-//! One cell of a Markdown table, so that prose can quote it.
+//! Extracts a cell of a Markdown table, so that prose can quote it.
 
 /// The cell that `path`, `row|column` or `row|column|part`, names in a table.
 ///

@@ -1,4 +1,4 @@
-//! What pages quote of the report of `asperity-train evaluate`.
+//! Figures that pages quote from the report of `asperity-train evaluate`.
 
 use super::Set;
 use serde_json::Value;
@@ -10,7 +10,7 @@ use std::{
 /// The command that writes the report.
 const COMMAND: &str = "asperity-train evaluate --model target/model --parts 2,7 -o report, then cargo run -p \
                        asperity-tests --bin figures -- --report report/report.json";
-/// What decides the figures: the corpus, the recipe, the shipped weights.
+/// Inputs that decide the figures: the corpus, the recipe, the shipped weights.
 const PATHS: [&str; 4] = [
     "training/corpora",
     "training/train/src/evaluate",

@@ -18,9 +18,9 @@ pub struct Quoted {
     pub line: usize,
     /// `set.figure`.
     pub name: String,
-    /// What the page says.
+    /// The page's text.
     pub said: String,
-    /// What the set says.
+    /// The set's text.
     pub right: String,
 }
 

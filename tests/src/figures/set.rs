@@ -26,7 +26,7 @@ pub struct Set {
     pub figures: BTreeMap<String, String>,
 }
 
-/// What was measured, so that a later change of it can be told.
+/// Inputs of the measurement, to detect later changes.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measured {
@@ -119,7 +119,7 @@ impl Set {
         fs::write(file, text).map_err(|cause| error(cause.to_string()))
     }
 
-    /// Whether what was measured has changed since; `None` where a test holds the figures.
+    /// Returns true if the measured files have changed since; `None` where a test holds the figures.
     ///
     /// # Errors
     /// [`io::Error`] where a file cannot be read.

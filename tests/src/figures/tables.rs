@@ -26,7 +26,7 @@ pub fn renewed(mut set: Set, text: &str, root: &Path) -> io::Result<Set> {
     set.of_now(root, paths)
 }
 
-/// What follows each heading of the second and third level, by the words of the heading.
+/// Returns the text below each heading of the second and third level, by the words of the heading.
 fn sections(text: &str) -> BTreeMap<String, String> {
     let mut sections = BTreeMap::<String, String>::new();
     let mut name = None;

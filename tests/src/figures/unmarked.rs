@@ -14,7 +14,7 @@ static FIGURE: LazyLock<Regex> = LazyLock::new(|| {
 /// A cell of a table that holds nothing but numbers.
 static CELL: LazyLock<Regex> =
     LazyLock::new(|| compiled("^[-–±0-9.,/·×eE \u{a0}−]*[0-9][-–±0-9.,/·×eE \u{a0}−]*$"));
-/// What is quoted, and code within a line.
+/// Quoted text, and code within a line.
 static APART: LazyLock<Regex> = LazyLock::new(|| compiled("(?s)<!--=.*?<!--/-->|`[^`\n]+`"));
 
 fn compiled(pattern: &str) -> Regex {

@@ -1,4 +1,4 @@
-//! What a texture is like, from its bytes.
+//! Perceptual attributes of a texture, from its bytes.
 
 use super::{Texture, polynomial};
 use asperity_formats::Asset;

@@ -33,7 +33,7 @@ impl Butterworth2 {
         (self.x, self.y) = ([0.0; 2], [0.0; 2]);
     }
 
-    /// One step.
+    /// Filters a sample.
     pub fn step(&mut self, x: f64) -> f64 {
         let y = self.gain * (x + 2.0 * self.x[0] + self.x[1])
             - self.a1 * self.y[0]

@@ -3,7 +3,7 @@
 use asperity_formats::{Asset, Numerator};
 use std::f64::consts::{PI, TAU};
 
-/// One vertex with its model.
+/// A vertex with its model.
 #[derive(Debug, Clone)]
 pub struct Vertex {
     /// Speed, mm/s.

@@ -127,7 +127,7 @@ impl Oracle {
         &self.texture
     }
 
-    /// One servo period.
+    /// Renders a servo period.
     pub fn tick(&mut self, sample: &Sample) -> Tick {
         let rate = f64::from(self.config.servo_rate_hz);
         let (safe, elapsed, restart) = self.gate(sample);

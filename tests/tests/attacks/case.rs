@@ -11,7 +11,7 @@ use super::{
 use asperity_tests::draw::Draw;
 use std::{ffi::OsString, fmt, os::unix::ffi::OsStringExt as _, path::Path};
 
-/// What is put in the place of the attacked file.
+/// Replacement for the attacked file.
 enum Input {
     Bytes(Vec<u8>),
     Strange(Strange),

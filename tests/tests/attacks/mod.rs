@@ -124,7 +124,7 @@ fn nothing_in_a_cache_leads_a_build_astray() {
     assert_eq!(tally.accepted, strange::Strange::ALL.len(), "{tally}");
 }
 
-/// One case of the suite.
+/// Runs a case of the suite.
 fn attacked(
     number: usize,
     programs: &programs::Programs,

@@ -6,7 +6,7 @@ use super::{
 };
 use asperity_tests::draw::Draw;
 
-/// What a number is replaced by.
+/// Replacements for a number.
 const NUMBERS: [&str; 22] = [
     "0",
     "-0",
@@ -31,7 +31,7 @@ const NUMBERS: [&str; 22] = [
     "",
     "0.30000000000000004",
 ];
-/// What is put in between.
+/// Insertions.
 const PIECES: [&[u8]; 22] = [
     b"\0",
     b"\xff\xfe",

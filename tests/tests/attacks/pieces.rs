@@ -10,7 +10,7 @@ use asperity_diffusion::tiny;
 /// As a target: the word of the line that is replaced, instead of a file.
 pub(crate) const PROMPT: &str = "PROMPT";
 
-/// One attack.
+/// An attack.
 pub(crate) struct Piece {
     pub(crate) program: Program,
     pub(crate) line: &'static str,
@@ -416,7 +416,7 @@ fn numbered(count: usize, one: impl Fn(usize) -> String) -> Vec<u8> {
     (0..count).map(one).collect::<String>().into_bytes()
 }
 
-/// What stands before the `n`th entry of a list.
+/// Returns the separator before the `n`th entry of a list.
 fn comma(n: usize) -> &'static str {
     if n == 0 { "" } else { "," }
 }

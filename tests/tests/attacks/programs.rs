@@ -106,7 +106,7 @@ pub(crate) fn built() -> Programs {
     Programs::of(folder.to_owned())
 }
 
-/// Whether a program is newer than everything that it may be built from.
+/// Returns true if a program is newer than everything that it may be built from.
 fn is_fresh(program: &Path, root: &Path) -> bool {
     let Ok(built) = program.metadata().and_then(|file| file.modified()) else {
         return false;

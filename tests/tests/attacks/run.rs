@@ -13,7 +13,7 @@ use wait4::Wait4 as _;
 /// A command that takes longer is ended: it waits for something, whatever the machine's load.
 const MAX_WALL: Duration = Duration::from_secs(60);
 
-/// What a command did.
+/// Outcome of a command.
 pub(crate) struct Run {
     pub(crate) status: ExitStatus,
     pub(crate) was_killed: bool,

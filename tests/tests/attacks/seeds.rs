@@ -54,7 +54,7 @@ pub(crate) enum Seed {
 }
 
 impl Seed {
-    /// Whether the input is lines of text.
+    /// Returns true if the input is lines of text.
     pub(crate) fn is_text(self) -> bool {
         if let Self::Diffusion(part) = self {
             return !part.ends_with(".onnx");
@@ -82,7 +82,7 @@ pub(crate) struct Seeds {
     library: Vec<u8>,
     scene: Vec<u8>,
     model: Vec<u8>,
-    /// What the built-in texture exports to: `.haptic`, AHAP, HJIF.
+    /// Exports of the built-in texture: `.haptic`, AHAP, HJIF.
     effects: [Vec<u8>; 3],
     /// The shipped model as a folder.
     shipped: TempDir,

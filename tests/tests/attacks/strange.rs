@@ -1,4 +1,4 @@
-//! What a path can lead to besides a file with bytes.
+//! Targets of a path other than a file with bytes.
 
 use asperity_tests::draw::Draw;
 use std::{
@@ -8,7 +8,7 @@ use std::{
     process::Command,
 };
 
-/// What stands in the place of a file.
+/// A substitute for a regular file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Strange {
     Missing,
@@ -50,7 +50,7 @@ impl Strange {
         Socket,
     ];
 
-    /// One of them; pipes seldom, because a command waits for each.
+    /// Draws a substitute; pipes seldom, because a command waits for each.
     pub(crate) fn drawn(must_be_refused: bool, draw: &mut Draw) -> Self {
         // In a folder of materials, only what the system takes for a file is read.
         const REFUSED: [Strange; 2] = [Empty, Sparse];

@@ -1,4 +1,4 @@
-//! What must hold after a command, and the count of what came of all.
+//! Postconditions of a command, and the tally of all outcomes.
 
 use super::{case::Attack, run::Run};
 use std::{
@@ -44,14 +44,14 @@ impl Snapshot {
     }
 }
 
-/// What came of a case.
+/// Outcome of a case.
 pub(crate) struct Verdict {
     command: &'static str,
     accepted: bool,
     cpu: Duration,
     rss_bytes: u64,
     number: usize,
-    /// What did not hold.
+    /// The violated postconditions.
     pub(crate) failure: Option<String>,
 }
 

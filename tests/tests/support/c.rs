@@ -13,7 +13,7 @@ pub(crate) fn root() -> &'static Path {
     package.parent().expect("the workspace")
 }
 
-/// What a command prints; it must succeed.
+/// Runs a command, which must succeed, and returns its output.
 pub(crate) fn succeeded(command: &mut Command) -> Output {
     let output = command
         .output()

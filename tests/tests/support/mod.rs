@@ -11,7 +11,7 @@ use asperity::{
 };
 use std::path::Path;
 
-/// What a source becomes; none that the tests use needs the learned model.
+/// Compiles a source; none that the tests use needs the learned model.
 pub(crate) fn compiled(source: &dyn Source, request: &Request) -> Compiled {
     driver::compile(source, request, &Tools::default()).expect("a texture")
 }

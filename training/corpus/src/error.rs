@@ -4,7 +4,7 @@ use asperity_io::diagnostic::Diagnostic;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// How many faults are printed; the others are counted.
+/// Largest number of faults printed; the others are counted.
 const SHOWN: usize = 20;
 
 /// Why a corpus cannot be used.
@@ -16,7 +16,7 @@ pub enum CorpusError {
     Unreadable {
         /// The path.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: std::io::Error,
     },
     /// A folder without any material.
@@ -36,7 +36,7 @@ pub enum CorpusError {
     /// Entries break the rules of the corpus.
     #[error("{}", summary(faults))]
     Faults {
-        /// One line each: file, material, field, fault.
+        /// The faults, a line each: file, material, field, fault.
         faults: Vec<String>,
     },
     /// A folder of HaTT models that cannot be used.

@@ -1,4 +1,4 @@
-//! Whether a model was trained on a text that is to judge it.
+//! Leakage: evaluation texts that the model was trained on.
 //!
 //! Texts are compared by the stems of their words (Porter's second algorithm), without articles and in any order, and by
 //! pairs of stems that stand side by side. Everything counts that any stage of training saw: captions, names,
@@ -72,7 +72,7 @@ impl TrainingTexts {
         all
     }
 
-    /// Whether a text is one of them, whatever its articles, endings and order.
+    /// Returns true if the text is among them, whatever its articles, endings and order.
     #[must_use]
     pub fn hold(&self, text: &str) -> bool {
         let mut stems = self.stems(text);
@@ -80,14 +80,14 @@ impl TrainingTexts {
         self.texts.contains(&stems)
     }
 
-    /// Whether a text is one of them, word for word.
+    /// Returns true if the text is among them, word for word.
     #[must_use]
     pub fn hold_verbatim(&self, text: &str) -> bool {
         self.verbatim.contains(&words(text))
     }
 
-    /// Whether one of them of two meaning words or more stands in a text word for word, or such a text in one of
-    /// them.
+    /// Returns true if a training text of at least two meaningful words occurs in the text word for word, or such a
+    /// text in a training text.
     #[must_use]
     pub fn share_a_phrase_with(&self, text: &str) -> bool {
         let its_words = words(text);
@@ -102,7 +102,7 @@ impl TrainingTexts {
         holds || self.stems(text).len() > 1 && all.any(within)
     }
 
-    /// Whether two words that mean something stand side by side in a text and in one of them.
+    /// Returns true if two meaningful words adjacent in the text are also adjacent in a training text.
     #[must_use]
     pub fn share_a_pair_with(&self, text: &str) -> bool {
         pairs(&self.stems(text)).any(|pair| self.pairs.contains(&pair))

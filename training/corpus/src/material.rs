@@ -16,13 +16,13 @@ pub struct Corpus {
     pub grid: UnifiedGrid,
     /// Impact speeds of the traces, m/s, ascending.
     pub tap_speeds_m_s: [f64; TAPS],
-    /// Whether the taps were synthesised rather than recorded.
+    /// True if the taps were synthesised rather than recorded.
     pub taps_synthetic: bool,
     /// The materials, in a fixed order.
     pub materials: Vec<Material>,
 }
 
-/// One material.
+/// A material.
 #[derive(Debug, Clone)]
 pub struct Material {
     /// Name, unique in the corpus.
@@ -57,7 +57,7 @@ pub struct Caption {
     pub text: String,
 }
 
-/// What a caption is about.
+/// Subject of a caption.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Focus {
@@ -65,7 +65,7 @@ pub enum Focus {
     Look,
     /// Feel.
     Touch,
-    /// What it is made of.
+    /// Substance.
     Material,
     /// Its use, and where it is found.
     Use,
@@ -83,7 +83,7 @@ pub struct Rating {
     pub hard: f64,
 }
 
-/// One augmented sample of a material: what the encoders see.
+/// An augmented sample of a material, the encoders' input.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Instance {
     /// Line spectral frequencies of each bin, rad at 1 kHz, ascending; the numerator is 1 + z⁻¹.

@@ -143,7 +143,7 @@ fn is_quality(word: &str) -> bool {
     phrase::is_quality(word) || lexicon::qualities().any(|quality| quality == word)
 }
 
-/// What texts are filled with.
+/// Words that fill the texts.
 pub struct Words {
     names: Vec<&'static str>,
     qualities: Vec<&'static str>,

@@ -137,7 +137,7 @@ fn no_prompt_of_a_pair_is_a_training_text_or_shares_a_phrase_with_one() {
     assert!(found.is_empty(), "{found:#?}");
 }
 
-/// What of the texts that judge the model shares something with its training, as pages say it.
+/// Counts the evaluation texts that share something with the training, as pages state it.
 #[test]
 fn what_is_shared_with_training_is_stated() {
     let pairs = Pairs::read("pairs.toml");

@@ -18,7 +18,7 @@ pub(crate) struct Adam {
     pub(crate) second: Vec<Vec<f32>>,
 }
 
-/// What one step is taken with.
+/// Settings of a step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Step {
     /// Step size.
@@ -45,8 +45,8 @@ impl Adam {
         }
     }
 
-    /// One step down the gradients, which come in the order of the parameters.
-    /// Gives the norm of the whole gradient before it is clipped.
+    /// Takes a step down the gradients, which come in the order of the parameters.
+    /// Returns the norm of the whole gradient before clipping.
     pub(crate) fn step(
         &mut self,
         parameters: &mut Parameters,

@@ -1,11 +1,10 @@
-//! How rough, slippery and hard a text is: a regression of its own beside that of the latent.
+//! Regression of a text's roughness, slipperiness and hardness, beside that of the latent.
 //!
-//! The latent of a text is a mixture of materials, and what a mixture decodes to follows the words
-//! less closely than a regression on the ratings themselves. Ratings become attributes by a line
-//! for each, fitted to the materials; a harder material of the same roughness vibrates more, and half of
-//! that counts. A material's name is drawn to its own attributes, with the
-//! weights `exp((e·e_i − 1)/τ)` of names beside those of phrases, which keep what the regression
-//! says: not by the recall of the latent, whose directions carry nothing about how a material feels.
+//! A text's latent is a mixture of materials, and the decoded mixture follows the words less closely than a regression
+//! on the ratings themselves. Ratings map to attributes by a line each, fitted to the materials; a harder material of
+//! the same roughness vibrates more, and half of that effect counts. A material's name is drawn to its own attributes,
+//! with weights `exp((e·e_i − 1)/τ)` of names relative to those of phrases, which keep the regression's result. The
+//! recall of the latent is not used for this: its directions carry nothing about how a material feels.
 
 use crate::{
     attributes::{self, Layout},
@@ -39,7 +38,7 @@ pub(crate) struct AttributeRegression {
     pub(crate) materials: Vec<Felt>,
     /// Which examples of the memory are names, and whose.
     pub(crate) names: Names,
-    /// How names are drawn to their materials, if they are.
+    /// Recall that draws names to their materials, if any.
     pub(crate) recall: Option<config::Recall>,
 }
 
@@ -112,7 +111,7 @@ impl AttributeRegression {
         })
     }
 
-    /// What texts ask for.
+    /// Returns the attributes that texts ask for.
     pub(crate) fn ask(&self, memory: &KernelRidge, vectors: &[&[f32]]) -> Vec<Felt> {
         let mut felt = memory.apply(vectors, self.concentration, &self.coefficients, &self.mean);
         if let Some(how) = &self.recall {
@@ -149,9 +148,9 @@ pub(crate) fn of(material: &Material, layout: &Layout) -> Felt {
     ]
 }
 
-/// What ratings become.
+/// Map from ratings to attributes.
 struct ByRatings {
-    /// Of each attribute in its own rating.
+    /// Line of each attribute in its own rating.
     lines: [Line; 3],
     /// dB for a step of the rated hardness.
     level_per_hard: f64,

@@ -3,7 +3,7 @@
 use asperity::{model::attributes::Meter, learned::description::{GridDescription, ModelDescription}, signal::spectrum::trace_centroid_hz};
 use asperity_corpus::{Corpus, Instance, TAP_RATE_HZ, TAPS};
 
-/// What all instances of a corpus share: where their bins and their traces lie.
+/// Layout shared by all instances of a corpus: positions of bins and traces.
 #[derive(Debug, Clone)]
 pub(crate) struct Layout {
     grid: GridDescription,

@@ -1,4 +1,4 @@
-//! What the network sees in one step.
+//! Inputs of the network in a step.
 
 use crate::{
     captions::{Captions, unit},
@@ -20,7 +20,7 @@ pub(crate) struct Instances {
     pub(crate) friction: Vec<f32>,
 }
 
-/// One step's inputs.
+/// Inputs of a step.
 pub(crate) struct Batch {
     /// [B, 396], normalised.
     pub(crate) ar: Tensor<2>,
@@ -119,7 +119,7 @@ fn mixing(rows: usize, probability: f64, stream: &mut Stream) -> Option<Vec<f32>
     Some(shares)
 }
 
-/// One of a material's captions, perhaps mixed with another, perhaps with noise.
+/// Draws a caption of a material, perhaps mixed with another, perhaps with noise.
 fn caption(captions: &[Vec<f32>], augmentation: &Augmentation, stream: &mut Stream) -> Vec<f32> {
     let mut vector = captions[stream.below(captions.len())].clone();
     if stream.happens(augmentation.caption_mixup) {

@@ -8,13 +8,13 @@ use rayon::prelude::*;
 /// Unit vectors of all captions and of the lexicon.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Captions {
-    /// What the encoder calls itself.
+    /// Name of the encoder.
     pub encoder: String,
     /// Width of the vectors.
     pub width: usize,
     /// Training captions of each material of the corpus, then its name and its synonyms.
     pub training: Vec<Vec<Vec<f32>>>,
-    /// How many of the last of these are names.
+    /// Number of names and synonyms, which come last in `training`, per material.
     pub names: Vec<usize>,
     /// Held-out captions of each material.
     pub held_out: Vec<Vec<Vec<f32>>>,
@@ -31,8 +31,7 @@ pub struct Phrase {
     pub vector: Vec<f32>,
     /// Its rating.
     pub rating: Rating,
-    /// How sure the rating is, relative to the mean of the lexicon; within
-    /// 0.3..=1.6.
+    /// Certainty of the rating, relative to the mean of the lexicon; within 0.3..=1.6.
     pub weight: f32,
 }
 

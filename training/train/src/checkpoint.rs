@@ -28,7 +28,7 @@ const FIXED: (Friction, Evaluation) = (
     Evaluation { folds: 2 },
 );
 
-/// What a checkpoint belongs to: a run goes on only where all of it is the same.
+/// Identity of a checkpoint's run: only an identical run can resume it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Identity {

@@ -4,7 +4,7 @@
 use crate::config::Excitation;
 use asperity::signal::level::nyquist_rms;
 
-/// What the network sees of a model with these LSFs (rad) and this level (dB).
+/// Returns the network's code for a model with these LSFs (rad) and this level (dB).
 pub(crate) fn encode(excitation: Excitation, lsf_rad: &[f32], level_db: f32) -> f32 {
     let sigma_db = || f64::from(level_db) - gain_db(lsf_rad);
     match excitation {

@@ -26,9 +26,9 @@ pub struct Config {
     pub name: String,
     /// Seed of initialisation, shuffles and noise.
     pub seed: u64,
-    /// What to train on.
+    /// Training corpus.
     pub corpus: CorpusChoice,
-    /// How the numbers of an instance are presented to the network.
+    /// Coding of an instance's numbers for the network.
     pub coding: Coding,
     /// Sizes.
     pub network: Network,
@@ -36,18 +36,18 @@ pub struct Config {
     pub loss: Loss,
     /// Optimisation of the whole network.
     pub optimiser: Optimiser,
-    /// What is varied while training.
+    /// Augmentation while training.
     pub augmentation: Augmentation,
     /// The second stage, which projects texts from memory; none in the paper.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub text_stage: Option<TextStage>,
-    /// How μ is read from the anchors.
+    /// Estimation of μ from the anchors.
     pub friction: Friction,
     /// Cross-validation.
     pub evaluation: Evaluation,
 }
 
-/// What to train on.
+/// Training corpus.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CorpusChoice {
@@ -70,17 +70,17 @@ pub enum CorpusKind {
     Hatt,
 }
 
-/// How the numbers of an instance are presented to the network.
+/// Coding of an instance's numbers for the network.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Coding {
     /// The 22nd channel.
     pub excitation: Excitation,
-    /// What shares a mean and a deviation.
+    /// Grouping of the values that share a mean and a deviation.
     pub normalisation: Normalisation,
 }
 
-/// What the 22nd channel of a bin holds.
+/// Content of the 22nd channel of a bin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Excitation {
@@ -92,7 +92,7 @@ pub enum Excitation {
     Level,
 }
 
-/// What shares a mean and a deviation. Taps always share them within a trace.
+/// Grouping of the values that share a mean and a deviation. Taps always share them within a trace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Normalisation {
@@ -145,13 +145,12 @@ pub struct Loss {
     pub temperature: f64,
     /// λ_align, of the mean square of μ̂ − μ.
     pub alignment: f64,
-    /// Of the mean square of μ − c, c a learned centre for each material (Wen et al. 2016,
-    /// centre loss); none in the paper.
+    /// Weight of the mean square of μ − c, c a learned centre for each material (Wen et al. 2016, centre loss); none in
+    /// the paper.
     #[serde(default)]
     pub compactness: f64,
-    /// Of the mean square error of ln μ_friction, standardised, read linearly from the
-    /// posterior's mean: encoders see no friction, yet it is read from neighbours in the
-    /// latent; none in the paper.
+    /// Weight of the mean square error of ln μ_friction, standardised, read linearly from the posterior's mean:
+    /// encoders see no friction, yet it is read from neighbours in the latent; none in the paper.
     #[serde(default)]
     pub friction: f64,
     /// β at its largest.
@@ -181,7 +180,7 @@ pub struct Optimiser {
     pub weight_decay: f64,
 }
 
-/// What is varied while training.
+/// Augmentation while training.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Augmentation {
@@ -222,19 +221,19 @@ pub struct Memory {
     pub iterations: usize,
     /// Principal directions of the text vectors that are kept.
     pub directions: usize,
-    /// How much a caption counts beside a name or a surely rated phrase: captions speak of several
-    /// things at once, and few of them are about what slides.
+    /// Weight of a caption relative to a name or a surely rated phrase: captions speak of several aspects at once, and
+    /// few of them are about sliding contact.
     pub caption_weight: f64,
     /// γ of the regression of the three attributes.
     pub felt_concentration: f64,
-    /// How much a caption counts there.
+    /// Weight of a caption in that regression.
     pub felt_caption_weight: f64,
     /// Draws a text that is clearly about one material to it; none if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recall: Option<Recall>,
 }
 
-/// How a text is drawn to the material that it is about.
+/// Recall, which draws a text to the material that it is about.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Recall {
@@ -242,10 +241,10 @@ pub struct Recall {
     pub temperature: f64,
     /// Directions of a linear discriminant analysis on which texts are compared.
     pub directions: usize,
-    /// How far its scatter within materials is shrunk towards a multiple of the unit matrix: that
-    /// multiple, over the mean variance.
+    /// Shrinkage of its scatter within materials towards a multiple of the unit matrix: that multiple, over the mean
+    /// variance.
     pub shrinkage: f64,
-    /// How much a mean text counts beside a name.
+    /// Weight of a mean text relative to a name.
     pub mean_weight: f64,
     /// Cosine on these directions that a material's text must exceed, for its latent to count more
     /// than the regression's.
@@ -253,15 +252,15 @@ pub struct Recall {
     /// τ of the softmax over names, synonyms and phrases of the lexicon that draws the three
     /// attributes.
     pub felt_temperature: f64,
-    /// How much a phrase counts there beside a name: a phrase keeps what the regression says.
+    /// Weight of a phrase in that softmax relative to a name: a phrase keeps the regression's result.
     pub felt_phrase_weight: f64,
 }
 
-/// How μ is read from the anchors.
+/// Estimation of μ from the anchors.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Friction {
-    /// How many anchors count.
+    /// Number of anchors that count.
     pub top_k: usize,
     /// Temperature of the softmax over cosines.
     pub temperature: f64,
@@ -284,7 +283,7 @@ pub enum ConfigError {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: io::Error,
     },
     /// The file is no TOML, or has a field too many or too few.
@@ -300,9 +299,9 @@ pub enum ConfigError {
     Value {
         /// The field, with its table.
         field: &'static str,
-        /// What it says.
+        /// Its value.
         value: String,
-        /// What it may be.
+        /// The permitted values.
         expected: &'static str,
     },
 }

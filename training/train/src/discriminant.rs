@@ -12,7 +12,7 @@ use crate::eigen;
 pub(crate) struct Discriminant {
     /// Directions, a column each: `width × kept`.
     pub(crate) basis: Vec<f32>,
-    /// What is added to each: the projected mean, negative.
+    /// Offset added per direction: the projected mean, negative.
     pub(crate) offset: Vec<f32>,
 }
 

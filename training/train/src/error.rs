@@ -15,9 +15,9 @@ pub enum FitError {
     /// A material outside the corpus.
     #[error("material {index} of a corpus of {count}")]
     NoSuchMaterial {
-        /// What was asked for.
+        /// The requested index.
         index: usize,
-        /// How many there are.
+        /// Materials in the corpus.
         count: usize,
     },
     /// A material that cannot be trained on.
@@ -65,7 +65,7 @@ pub enum FitError {
     Checkpoint {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The problem.
         message: String,
     },
     /// A file cannot be written.

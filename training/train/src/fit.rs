@@ -70,7 +70,7 @@ pub struct Checkpoints<'a> {
     pub path: &'a Path,
     /// Epochs between two savings.
     pub every: usize,
-    /// Whether to go on from the file, which must then be there.
+    /// True to resume from the file, which must then exist.
     pub resume: bool,
 }
 
@@ -184,12 +184,12 @@ impl<'a> TrainingRun<'a> {
         })
     }
 
-    /// Whether the first stage is over.
+    /// Returns true if the first stage is over.
     pub(crate) fn is_done(&self) -> bool {
         self.state.history.len() >= self.config.optimiser.epochs
     }
 
-    /// One epoch of the first stage.
+    /// Trains an epoch of the first stage.
     pub(crate) fn epoch(&mut self, progress: &mut dyn Progress) -> Result<(), FitError> {
         let loss = self.state.epoch(&Run {
             config: self.config,

@@ -27,15 +27,15 @@ pub(crate) struct KernelRidge {
     pub(crate) width: usize,
     /// Principal directions of the examples, a column each: `width × kept`.
     pub(crate) basis: Vec<f32>,
-    /// How many directions are kept.
+    /// Number of directions kept.
     pub(crate) kept: usize,
     /// Codes, an example a row.
     pub(crate) codes: Vec<i8>,
-    /// What a code is worth, one an example.
+    /// Quantisation scale of the codes, per example.
     pub(crate) scales: Vec<f32>,
     /// Codes of a, an example a row.
     pub(crate) coefficients: Vec<i8>,
-    /// What a code of a is worth, one a component of the latent.
+    /// Quantisation scale of a, per component of the latent.
     pub(crate) coefficient_scales: [f32; LATENT],
     /// z̄.
     pub(crate) mean: [f32; LATENT],
@@ -109,7 +109,7 @@ impl KernelRidge {
         (mean, numbers(found).as_chunks::<N>().0.to_vec())
     }
 
-    /// What a regression says of text vectors.
+    /// Applies a regression to text vectors.
     pub(crate) fn apply<const N: usize>(
         &self,
         vectors: &[&[f32]],
@@ -165,8 +165,8 @@ impl KernelRidge {
         rows.map(<[f32]>::to_vec).collect()
     }
 
-    /// How familiar text vectors are: `1 + ln(Σ_i exp(κ(e·e_i − 1)))/κ`, a soft maximum of their
-    /// inner products with the examples. `without` leaves out one example of each.
+    /// Returns the familiarity of text vectors: `1 + ln(Σ_i exp(κ(e·e_i − 1)))/κ`, a soft maximum of their inner
+    /// products with the examples. `without` leaves out an example for each vector.
     pub(crate) fn familiarity(&self, vectors: &[&[f32]], without: Option<&[usize]>) -> Vec<f64> {
         let rows = self.likeness(vectors).into_iter().enumerate();
         rows.map(|(row, likeness)| {

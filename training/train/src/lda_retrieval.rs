@@ -24,7 +24,7 @@ pub(crate) struct LdaRetrieval {
     pub(crate) discriminant: Discriminant,
     /// Codes, a prototype a row.
     pub(crate) codes: Vec<i8>,
-    /// What a code is worth, one a prototype.
+    /// Quantisation scale of the codes, per prototype.
     pub(crate) scales: Vec<f32>,
     /// ln b, one a prototype.
     pub(crate) log_weights: Vec<f32>,
@@ -33,7 +33,7 @@ pub(crate) struct LdaRetrieval {
 }
 
 impl LdaRetrieval {
-    /// Of materials.
+    /// Fits the prototypes of materials.
     pub(crate) fn new(
         memory: &KernelRidge,
         materials: &[MaterialLatent],

@@ -1,4 +1,4 @@
-//! What can be said of a model on the materials it was trained on.
+//! Metrics of a model on the materials that it was trained on.
 
 use crate::{
     captions::{Captions, cosine},
@@ -40,7 +40,7 @@ pub struct Metrics {
     pub words: Option<WordsHeldOut>,
 }
 
-/// How often the material is among the anchors nearest to the projected caption.
+/// Hit rates of the material among the anchors nearest to the projected caption.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Retrieval {
     /// Captions.

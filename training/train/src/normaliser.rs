@@ -32,7 +32,7 @@ const MIN_SHARE: f32 = 1e-3;
 /// trace.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Normaliser {
-    /// How the excitation is coded and what shares a deviation.
+    /// Coding of the excitation, and grouping of the values that share a deviation.
     pub coding: Coding,
     /// Mean of the `AR` values.
     pub ar_mean: Vec<f32>,

@@ -48,17 +48,17 @@ impl Parameters {
         self.list.iter_mut()
     }
 
-    /// One of them.
+    /// Returns the parameter in a slot.
     pub(crate) fn get(&self, slot: Slot) -> &Parameter {
         &self.list[slot.0]
     }
 
-    /// One of them, to change.
+    /// Returns the parameter in a slot, to change.
     pub(crate) fn get_mut(&mut self, slot: Slot) -> &mut Parameter {
         &mut self.list[slot.0]
     }
 
-    /// How many numbers there are.
+    /// Returns the number of values in all parameters.
     pub(crate) fn count(&self) -> usize {
         self.list.iter().map(|p| p.values.len()).sum()
     }
@@ -85,7 +85,7 @@ impl Parameters {
 pub(crate) struct Bound(Vec<Tensor<2>>);
 
 impl Bound {
-    /// One of them.
+    /// Returns the tensor in a slot.
     pub(crate) fn get(&self, slot: Slot) -> Tensor<2> {
         self.0[slot.0].clone()
     }
@@ -115,7 +115,7 @@ pub(crate) fn numbers(tensor: Tensor<2>) -> Vec<f32> {
 pub(crate) struct Linear {
     /// Inputs × outputs.
     pub(crate) weight: Slot,
-    /// One row.
+    /// A single row.
     pub(crate) bias: Slot,
 }
 

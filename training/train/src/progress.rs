@@ -1,11 +1,11 @@
-//! How a run says where it is, and how it is stopped.
+//! Progress and interruption of a run.
 
 use serde::{Deserialize, Serialize};
 
 /// Means over the steps of an epoch.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct EpochLoss {
-    /// What is minimised.
+    /// The objective.
     pub total: f32,
     /// Smooth L1 of the normalised LSFs and excitations, weighted.
     pub ar: f32,
@@ -45,7 +45,7 @@ pub trait Progress {
     fn epoch(&mut self, epoch: usize, epochs: usize, loss: &EpochLoss);
     /// An epoch of the text stage is done; `epoch` counts from 1.
     fn text_epoch(&mut self, epoch: usize, epochs: usize, loss: f32);
-    /// Whether to stop after this epoch.
+    /// Returns true to stop after this epoch.
     fn interrupted(&self) -> bool {
         false
     }

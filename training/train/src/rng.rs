@@ -5,7 +5,7 @@ use rand_core::{Rng as _, SeedableRng as _};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::f64::consts::TAU;
 
-/// What a stream is drawn for. The numbers are part of a run's identity.
+/// Purpose of a stream. The numbers are part of a run's identity.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Purpose {
     Initialisation = 1,
@@ -60,7 +60,7 @@ impl Stream {
         (0..count).map(|_| self.normal()).collect()
     }
 
-    /// Whether something of this probability happens.
+    /// Returns true with this probability.
     pub(crate) fn happens(&mut self, probability: f64) -> bool {
         f64::from(self.uniform()) < probability
     }

@@ -12,7 +12,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Of values; zero for none.
+    /// Computes the spread of values; zero for none.
     #[must_use]
     pub fn of(values: &[f64]) -> Self {
         let centre = mean(values);
@@ -29,7 +29,7 @@ impl Spread {
     }
 }
 
-/// How many of how many, with Wilson's 95 % interval.
+/// A proportion, with Wilson's 95 % interval.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Share {
     /// Successes.

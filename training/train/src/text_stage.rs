@@ -14,11 +14,11 @@ use asperity_corpus::Rating;
 struct Example {
     vector: Vec<f32>,
     target: [f32; LATENT],
-    /// How sure the target is, about 1.
+    /// Certainty of the target, about 1.
     weight: f32,
 }
 
-/// What the memory is fitted to, captions first, then phrases; targets are standardised.
+/// Examples for fitting the memory, captions first, then phrases; targets are standardised.
 pub(crate) struct Examples {
     all: Vec<Example>,
     mean: [f32; LATENT],

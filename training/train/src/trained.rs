@@ -20,7 +20,7 @@ use burn_tensor::Device;
 /// Rows that go through the network at once.
 const CHUNK: usize = 256;
 
-/// What an encoder is given of an instance.
+/// Modalities of an instance that an encoder sees.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Seen {
     /// AR models and traces.
@@ -58,12 +58,12 @@ pub struct Trained {
     pub(crate) memory: Option<KernelRidge>,
     /// Draws what the memory says to a material.
     pub(crate) recall: Option<LdaRetrieval>,
-    /// How rough, slippery and hard texts are, beside the memory.
+    /// Regression of roughness, slipperiness and hardness, beside the memory.
     pub(crate) feel: Option<AttributeRegression>,
 }
 
 impl Trained {
-    /// What it was trained with.
+    /// Returns the configuration of its training.
     #[must_use]
     pub fn config(&self) -> &Config {
         &self.config
@@ -171,8 +171,8 @@ impl Trained {
         instance
     }
 
-    /// How rough, slippery and hard the words of text vectors are; nothing from a model that does not
-    /// say.
+    /// Returns the roughness, slipperiness and hardness that text vectors ask for; empty from a model without that
+    /// regression.
     pub(crate) fn feel(&self, vectors: &[&[f32]]) -> Vec<Felt> {
         match (&self.feel, &self.memory) {
             (Some(feel), Some(memory)) => {

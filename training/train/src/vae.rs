@@ -20,7 +20,7 @@ use std::f64::consts::PI;
 /// A run between two epochs: all there is to save.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct State {
-    /// What is learned.
+    /// Learned parameters.
     pub(crate) parameters: Parameters,
     /// The optimiser's memory.
     pub(crate) adam: Adam,
@@ -28,7 +28,7 @@ pub(crate) struct State {
     pub(crate) history: Vec<EpochLoss>,
 }
 
-/// What does not change during a run.
+/// Constants of a run.
 pub(crate) struct Run<'a> {
     pub(crate) config: &'a Config,
     pub(crate) network: &'a Network,
@@ -47,7 +47,7 @@ impl State {
         }
     }
 
-    /// One pass over the instances.
+    /// Trains for one pass over the instances.
     pub(crate) fn epoch(&mut self, run: &Run<'_>) -> Result<EpochLoss, FitError> {
         let epoch = self.history.len();
         let optimiser = &run.config.optimiser;

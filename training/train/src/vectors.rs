@@ -103,7 +103,7 @@ impl<'a> Remembered<'a> {
         Ok(asperity_io::output::write_atomic(path, &bytes)?)
     }
 
-    /// Whether a text's vector is at hand.
+    /// Returns true if a text's vector is at hand.
     pub(crate) fn knows(&self, text: &str) -> bool {
         self.known().contains_key(text)
     }

@@ -1,7 +1,7 @@
-//! What is said of phrases that the regression has not seen.
+//! Accuracy of the regression on held-out phrases.
 //!
-//! Groups of near phrases are held out together, a fifth of them; the ratings of the rest, and of
-//! the materials' captions, predict theirs.
+//! Groups of near phrases are held out together, a fifth of them; the ratings of the rest, and of the materials'
+//! captions, predict theirs.
 
 use crate::{
     captions::{Captions, dot},
@@ -18,7 +18,7 @@ use serde::Serialize;
 
 /// Phrases of a larger cosine are of one group.
 const NEAR: f32 = 0.8;
-/// One in so many groups is held out.
+/// Number of folds: every fifth group is held out.
 const FOLDS: usize = 5;
 /// A prediction is right within so many points of each rating.
 pub const TOLERANCE: f64 = 15.0;
@@ -196,8 +196,8 @@ fn largest(group: &[usize]) -> usize {
     counts.into_iter().max().unwrap_or_default()
 }
 
-/// Whether each phrase is held out: every fifth of the shuffled groups, but never the largest,
-/// whose phrases are near most others by chains.
+/// Marks the phrases to hold out: every fifth of the shuffled groups, but never the largest, whose phrases are near
+/// most others by chains.
 fn chosen(group: &[usize], seed: u64) -> Vec<bool> {
     let mut counts = vec![0_usize; group.iter().copied().max().map_or(0, |last| last + 1)];
     group.iter().for_each(|&g| counts[g] += 1);

@@ -1,4 +1,4 @@
-//! What the firmware programs share. Each is one call of [`firmware!`].
+//! Shared parts of the firmware programs. Each is a single call of [`firmware!`].
 //!
 //! Output over semihosting, a line each: `phase HASH` in order of the session, then
 //! `state`, `slot`, `stack-load`, `stack-tick` in bytes, hexadecimal all of them.
@@ -27,10 +27,10 @@ pub extern "C" fn mark_end() {
     cortex_m::asm::dmb();
 }
 
-/// What the processor computes with: floats where it has registers for them.
+/// The processor's native arithmetic: floats where it has registers for them.
 #[cfg(target_abi = "eabihf")]
 pub type Native = asperity_runtime::Float;
-/// What the processor computes with: fixed point, where floats are software.
+/// The processor's native arithmetic: fixed point, where floats are software.
 #[cfg(not(target_abi = "eabihf"))]
 pub type Native = asperity_runtime::Fixed;
 

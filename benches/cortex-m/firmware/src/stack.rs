@@ -1,4 +1,4 @@
-//! How deep the stack went, by painting what lies below it.
+//! Stack depth, measured by painting the memory below the stack.
 #![allow(unsafe_code, reason = "memory below the stack pointer is no object's")]
 
 use cortex_m::register::msp;

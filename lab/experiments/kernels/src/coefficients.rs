@@ -1,10 +1,10 @@
-//! What a structure computes a sample with, after conversion.
+//! Coefficients of a structure, after conversion.
 
 use crate::convert::Row;
 use crate::number::Number;
 use asperity_formats::limits::MAX_ORDER;
 
-/// What a structure computes a sample with.
+/// Coefficients with which a structure computes a sample.
 #[derive(Debug, Clone)]
 pub(crate) struct Coefficients<S> {
     /// Coefficients of A(z), its cosines or its reflection coefficients.
@@ -13,7 +13,7 @@ pub(crate) struct Coefficients<S> {
     pub(crate) complement: Row<S>,
     /// Coefficients of B(z), or its cosines.
     pub(crate) ma: Row<S>,
-    /// What the excitation of the normalised lattice is multiplied by: Π 1/√(1 − k²).
+    /// Gain on the excitation of the normalised lattice: Π 1/√(1 − k²).
     pub(crate) gain: S,
 }
 

@@ -7,7 +7,7 @@
 use crate::number::Number;
 use asperity_formats::limits::MAX_ORDER;
 
-/// One number for each pole or zero; 0 above the order.
+/// A number for each pole or zero; 0 above the order.
 pub(crate) type Row<P> = [P; MAX_ORDER];
 
 /// Half of a symmetric polynomial, of the sum and of the difference side. Two zeros stand

@@ -76,7 +76,7 @@ struct Kernel<P, S> {
     fraction: P,
     /// Fraction of a crossfade that has passed at each tick between two updates.
     ramp: Vec<S>,
-    /// How many m/s² a signal of 1 stands for.
+    /// Acceleration for a signal of 1, m/s².
     scale: f64,
     tick: usize,
     mixed: Parameters<P>,
@@ -342,8 +342,7 @@ fn rounded<P: Number + Rounds<S>, S: Number>(out: &mut Row<S>, row: &Row<P>, ord
     }
 }
 
-/// How many m/s² a signal of 1 stands for: 1 in floating point, the loudest vertex's RMS in
-/// fixed point.
+/// Returns the acceleration for a signal of 1, m/s²: 1 in floating point, the loudest vertex's RMS in fixed point.
 fn scale(design: &Design, texture: &Texture<'_>) -> Option<f64> {
     if matches!(design.arithmetic, Arithmetic::F64 | Arithmetic::F32) {
         return Some(1.0);

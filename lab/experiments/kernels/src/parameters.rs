@@ -11,9 +11,9 @@ use core::f64::consts::PI;
 /// Parameters of the poles and of the zeros.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Parameters<P> {
-    /// Of the poles.
+    /// Parameters of the poles.
     pub(crate) ar: Row<P>,
-    /// Of the zeros.
+    /// Parameters of the zeros.
     pub(crate) ma: Row<P>,
 }
 

@@ -129,7 +129,7 @@ struct Chain<S> {
     ends: [[S; 2]; 2],
 }
 
-/// What the inputs of all sections are without the newest sample.
+/// Section inputs without the newest sample.
 struct Known<S> {
     sections: Row<S>,
     ends: [S; 2],
@@ -144,8 +144,7 @@ impl<S: Number> Chain<S> {
         }
     }
 
-    /// What the stored samples add to A(z) at `order`, and the known part of every section's
-    /// input.
+    /// Returns the known part of every section's input, and the contribution of the stored samples to A(z) at `order`.
     #[inline]
     fn delayed(&self, cosines: &Row<S>, order: usize) -> (Known<S>, S) {
         let minus_two = S::of(-2.0);

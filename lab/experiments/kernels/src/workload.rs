@@ -20,7 +20,7 @@ pub struct Orders {
     pub poles: usize,
     /// Zeros, where the numerator is a polynomial of its own.
     pub zeros: usize,
-    /// Whether the numerator is 1 + z⁻¹.
+    /// True if the numerator is 1 + z⁻¹.
     pub nyquist: bool,
 }
 
@@ -123,7 +123,7 @@ mod tests {
         }
     }
 
-    /// What is counted is what the kernel renders, in its own unit: no design leaves out work.
+    /// The counted run renders the kernel's output in its own unit: no design leaves out work.
     #[test]
     fn a_counted_run_renders_every_tick_of_every_kernel() {
         let workload = Workload::default();

@@ -1,4 +1,4 @@
-//! What can go wrong on the bench.
+//! Errors of the bench.
 
 use asperity::{learned::ModelError, sources::recording::RecordingFailure};
 use asperity_io::diagnostic::Diagnostic;
@@ -13,7 +13,7 @@ pub enum ImportAccuracyError {
     Texture {
         /// Its name.
         name: String,
-        /// What is wrong.
+        /// The problem.
         what: String,
     },
     /// A file of the recording.

@@ -38,7 +38,7 @@ impl RecordingFault {
         Self::By1000,
     ];
 
-    /// What the check has to call it.
+    /// Returns the kind of finding that the check must report.
     #[must_use]
     pub fn kind(self) -> Kind {
         match self {
@@ -49,7 +49,7 @@ impl RecordingFault {
         }
     }
 
-    /// Whether a check found it, and named the channel or the file.
+    /// Returns true if a check found the fault and named its channel or file.
     #[must_use]
     pub fn is_named(self, checked: &Checked, file: &str) -> bool {
         checked

@@ -13,14 +13,14 @@ use super::{
     truth::{Cell, Comparison, compare},
 };
 
-/// One texture after some seconds of strokes.
+/// A texture after some seconds of strokes.
 #[derive(Debug, Clone, Serialize)]
 pub struct Row {
     /// The texture.
     pub name: String,
     /// Seconds of strokes.
     pub seconds: f64,
-    /// How far it is from the truth; `None` where the import refused it.
+    /// Errors against the truth; `None` where the import refused the recording.
     pub comparison: Option<Comparison>,
     /// Why it was refused.
     pub refused: Option<String>,
@@ -203,14 +203,14 @@ pub fn summary(rows: &[Row]) -> Figures {
     }
 }
 
-/// What the check found of faulty and of clean recordings.
+/// Results of the check on faulty and on clean recordings.
 #[derive(Debug, Clone, Serialize)]
 pub struct Checks {
     /// Faulty recordings.
     pub faulty: usize,
     /// Those whose fault was found and named with its file.
     pub named: usize,
-    /// What was missed.
+    /// Missed faults.
     pub missed: Vec<String>,
     /// Clean recordings.
     pub clean: usize,

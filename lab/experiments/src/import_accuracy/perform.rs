@@ -29,7 +29,7 @@ pub enum Until {
     Strokes(f64),
 }
 
-/// How the hand strokes.
+/// Style of the strokes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Strokes {
     /// At one speed and force each.
@@ -41,7 +41,7 @@ pub enum Strokes {
     Sine,
 }
 
-/// What happened, tick by tick.
+/// A performance, tick by tick.
 #[derive(Debug)]
 pub struct Performance {
     /// Every tick, 1 ms apart.

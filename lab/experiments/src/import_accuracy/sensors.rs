@@ -61,7 +61,7 @@ pub struct Sensors {
     pub resonance: Option<Resonance>,
     /// Taps on the tool in free air at the start.
     pub free_taps: usize,
-    /// Whether the device tells its position along z.
+    /// True if the device reports its position along z.
     pub has_height: bool,
 }
 
@@ -88,7 +88,7 @@ impl Sensors {
     }
 }
 
-/// What the sensors measured, in the units of their files.
+/// Sensor data, in the units of the files.
 #[derive(Debug, Clone)]
 pub(super) struct Measured {
     /// m/s², at the accelerometer's rate.

@@ -27,7 +27,7 @@ pub struct Resonance {
 }
 
 impl Resonance {
-    /// What the accelerometer feels of the acceleration of the tip, by
+    /// Returns the accelerometer's response to the acceleration of the tip, by
     /// H = ω0²/(s² + ω0 s/Q + ω0²) at the frequencies of the whole signal.
     pub(super) fn felt(self, signal: &[f64], rate_hz: f64) -> Vec<f64> {
         let (Some(&first), Some(&last)) = (signal.first(), signal.last()) else {

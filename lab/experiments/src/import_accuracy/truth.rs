@@ -1,4 +1,4 @@
-//! What came back, held against the texture that was touched.
+//! Comparison of an imported texture with the one that was touched.
 
 use asperity::{
     model::{ModelGrid, TapBank, TextureModel, mixture::Field},
@@ -43,7 +43,7 @@ pub struct Cell {
     pub level_db: f64,
 }
 
-/// How far a texture is from the truth.
+/// Errors of a texture against the truth.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Comparison {
     /// Every visited cell.

@@ -39,7 +39,7 @@ const FIRST_BAND: usize = 5;
 /// Frequencies a third octave.
 const PER_OCTAVE: usize = 6;
 
-/// What the generator predicts of a material.
+/// The generator's predictions for a material.
 #[derive(Debug, Clone)]
 pub struct Generated {
     /// With the constants of the reference corpus.
@@ -154,7 +154,7 @@ fn calibrated(file: &ConstantsFile, fit: &Fit<COUNT>, observed: &[&Observed<'_>]
     file
 }
 
-/// What is left of a material, in deviations.
+/// Returns the residuals of a material, in standard deviations.
 fn residuals(constants: &Constants, observed: &Observed<'_>) -> [f64; ROWS] {
     let weight = (INDEPENDENT_LEVELS / (STROKES * BANDS) as f64).sqrt() / LEVEL_DEVIATION_DB;
     let mut rows = [0.0; ROWS];

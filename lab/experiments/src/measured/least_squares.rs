@@ -82,7 +82,7 @@ impl<const N: usize> Fit<N> {
         squares.map(f64::sqrt)
     }
 
-    /// How far each parameter moves without some residuals, by one Gauss–Newton step.
+    /// Returns each parameter's shift when some residuals are left out, by a single Gauss–Newton step.
     pub(super) fn moved_without(&self, left_out: std::ops::Range<usize>) -> [f64; N] {
         let kept = |n: &usize| !left_out.contains(n);
         let rows: Vec<usize> = (0..self.residuals.len()).filter(kept).collect();

@@ -26,7 +26,7 @@ pub struct Material {
     pub attributes: Attributes,
     /// Parameters of the material of the reference corpus that the name means.
     pub physical: Option<Physical>,
-    /// What the generator predicts.
+    /// The generator's predictions.
     pub generated: Option<Generated>,
 }
 

@@ -98,7 +98,7 @@ pub fn trends(materials: &[Material]) -> Option<Trends> {
     })
 }
 
-/// What is compared.
+/// The textures to compare.
 struct Columns<'a> {
     measured: Vec<&'a Vibration>,
     compiled: Vec<&'a Vibration>,

@@ -1,5 +1,5 @@
-//! How far a design is from the f64 oracle: at rest over the whole grid, in motion, and while
-//! the query alternates between two vertices.
+//! Error of a design against the f64 oracle: at rest over the whole grid, in motion, and while the query alternates
+//! between two vertices.
 
 use super::difference::{Band, Difference};
 use super::kernel::Kernel;
@@ -22,7 +22,7 @@ use std::f64::consts::TAU;
 const SILENT: f64 = 0.01;
 /// Length of a block in the moving comparison, s. The hand does not resolve shorter times.
 const BLOCK_S: f64 = 0.05;
-/// How many pairs of vertices are drawn for the alternations of a material.
+/// Pairs of vertices drawn for the alternations, per material.
 const PAIRS: usize = 8;
 /// Samples of an alternation.
 const ALTERNATIONS: usize = 1000;
@@ -69,8 +69,7 @@ struct Still {
 }
 
 struct Pair {
-    /// One of the two vertices for each sample, drawn at random so that no update interval
-    /// samples only one of them.
+    /// Vertex for each sample, drawn at random from the two so that no update interval samples only one of them.
     places: Vec<Place>,
     louder_rms: f64,
 }

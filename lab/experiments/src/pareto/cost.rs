@@ -1,9 +1,8 @@
-//! What a design costs: executed instructions of mixing, conversion and synthesis, bytes of
-//! an asset, and time relative to the default.
+//! Cost of a design: executed instructions of mixing, conversion and synthesis, bytes of an asset, and time relative to
+//! the default.
 //!
-//! Callgrind counts the instructions. It runs this program with one kernel for n and for 2n
-//! ticks of a [`Workload`]; the difference divided by n is the cost of one tick, without
-//! start-up.
+//! Callgrind counts the instructions. It runs this program with a single kernel for n and for 2n ticks of a
+//! [`Workload`]; the difference divided by n is the cost per tick, without start-up.
 
 use asperity::{
     emit::lower,

@@ -1,8 +1,8 @@
-//! How two power spectra differ.
+//! Difference of two power spectra.
 
 use asperity::signal::spectrum::{ArmaModel, ErrorBand};
 
-/// How many frequencies spectra are compared at, four hertz apart.
+/// Number of frequencies at which spectra are compared, 4 Hz apart.
 const POINTS: usize = 111;
 
 /// The frequencies at which spectra are compared.
@@ -29,7 +29,7 @@ impl Band {
     }
 }
 
-/// How two power spectra differ.
+/// Difference of two power spectra.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Difference {
     /// RMS of the difference of their logarithms, level included, dB.

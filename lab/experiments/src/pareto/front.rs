@@ -3,7 +3,7 @@
 /// Coordinates whose ratio is smaller than this count as equal: 2 %.
 const TIE: f64 = 1.02;
 
-/// Whether no other point is at most as large in both coordinates and smaller in one.
+/// Returns true if no other point is at most as large in both coordinates and smaller in one.
 ///
 /// Coordinates within 2 % of each other count as equal.
 #[must_use]

@@ -1,12 +1,12 @@
-//! What `--fidelity auto` keeps of a material.
+//! Materials as reduced by `--fidelity auto`.
 
 use asperity::passes::reduce::{self, BUDGET_DB};
 use asperity_kernels::workload::Orders;
 
-/// One material after `--fidelity auto`.
+/// A material after `--fidelity auto`.
 #[derive(Debug, Clone)]
 pub struct Kept {
-    /// What was left out, and the error that follows.
+    /// The reduction, and its error.
     pub report: reduce::Report,
     /// Orders of the whole texture and of the reduced one.
     pub orders: (Orders, Orders),
@@ -23,7 +23,7 @@ impl Kept {
         self.instructions.map(|(full, kept)| kept / full)
     }
 
-    /// Whether the error is within the budget.
+    /// Returns true if the error is within the budget.
     #[must_use]
     pub fn is_within_budget(&self) -> bool {
         self.report.p95_db <= BUDGET_DB.0 && self.report.worst_db <= BUDGET_DB.1

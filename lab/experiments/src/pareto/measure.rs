@@ -18,16 +18,16 @@ use asperity_kernels::{
 use rayon::prelude::*;
 use std::collections::HashMap;
 
-/// What to measure, and how thoroughly.
+/// Selection and length of the measurements.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
     /// Seed of motions, excitations and pairs.
     pub seed: u64,
     /// Length of the motion that each design renders on each material, s.
     pub seconds: f64,
-    /// Whether instructions are counted.
+    /// True to count instructions.
     pub instructions: bool,
-    /// Whether kernels are timed against the default.
+    /// True to time the kernels against the default.
     pub time: bool,
 }
 
@@ -43,7 +43,7 @@ pub struct Results {
     pub held_out: Vec<Vec<Prediction>>,
     /// Exponents of speed and force, one pair for each material.
     pub exponents: Vec<(f64, f64)>,
-    /// What `auto` keeps of each material.
+    /// Each material as `auto` reduces it.
     pub kept: Vec<Kept>,
     /// The orders that instructions were counted at.
     pub common: Orders,
@@ -51,7 +51,7 @@ pub struct Results {
     pub not_counted: Option<String>,
 }
 
-/// How many times [`measure`] calls `done`.
+/// Returns the number of times that [`measure`] calls `done`.
 #[must_use]
 pub fn steps(materials: usize) -> usize {
     materials + variants().len()
@@ -123,7 +123,7 @@ pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + S
     }
 }
 
-/// What was measured on one material.
+/// Measurements on a material.
 struct Measured {
     rows: Vec<Measurement>,
     held_out: Vec<Prediction>,

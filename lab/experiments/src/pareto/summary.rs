@@ -1,11 +1,11 @@
-//! One variant, on one material and over all of them.
+//! Results of a variant, per material and over all of them.
 
 use super::accuracy::Errors;
 use super::statistics::{Spread, percentile};
 use asperity::passes::reduce::BUDGET_DB;
 use asperity_kernels::{design::Variant, workload::Orders};
 
-/// One variant on one material.
+/// A variant on a single material.
 #[derive(Debug, Clone)]
 pub struct Measurement {
     /// Index of the material.
@@ -20,7 +20,7 @@ pub struct Measurement {
     pub errors: Errors,
 }
 
-/// One variant over all materials.
+/// A variant over all materials.
 #[derive(Debug, Clone)]
 pub struct VariantSummary {
     /// The variant.
@@ -49,8 +49,8 @@ pub struct VariantSummary {
 }
 
 impl VariantSummary {
-    /// Whether the variant is within the budget at rest: stable everywhere, and within 0.5 dB at
-    /// 95 % of all places.
+    /// Returns true if the variant is within the budget at rest: stable everywhere, and within 0.5 dB at 95 % of all
+    /// places.
     #[must_use]
     pub fn is_within_budget(&self) -> bool {
         self.unstable == 0.0 && self.distortion_db.is_some_and(|d| d.p95 <= BUDGET_DB.0)

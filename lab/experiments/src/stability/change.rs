@@ -14,7 +14,7 @@ use crate::signal::rms;
 
 /// Ticks between changes.
 const PERIOD: usize = 500;
-/// How many changes.
+/// Number of changes.
 const CHANGES: usize = 40;
 
 /// Two textures of one filter each, with poles of radius 0.986 at 60 Hz and at 400 Hz. The

@@ -13,7 +13,7 @@ use super::methods::all_pole::is_stable;
 use super::methods::fixed_point::{block_16, q1_15};
 use super::row::{Row, Words};
 
-/// How many random filters are tried.
+/// Number of random filters.
 const FILTERS: usize = 200;
 
 /// |A(e^{jω})|².

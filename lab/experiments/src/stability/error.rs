@@ -1,4 +1,4 @@
-//! What can go wrong while the table or its pictures are made.
+//! Errors of the table and its pictures.
 
 use asperity_io::diagnostic::Diagnostic;
 use asperity_plot::PlotError;

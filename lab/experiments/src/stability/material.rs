@@ -23,7 +23,7 @@ pub const HARD: [&str; 5] = [
     "Bubble Envelope",
 ];
 
-/// One texture, as a model and in a slot.
+/// A texture, as a model and in a slot.
 #[derive(Debug)]
 pub struct Material {
     /// Its name.

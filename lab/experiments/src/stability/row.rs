@@ -1,4 +1,4 @@
-//! One scenario of the table: the figure of each method, and the verdict.
+//! A scenario of the table: the figure of each method, and the verdict.
 
 use std::fmt;
 
@@ -13,7 +13,7 @@ pub struct Other {
     pub figure: f64,
 }
 
-/// Whether a row holds.
+/// The verdict on a row.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
@@ -30,9 +30,9 @@ pub enum Verdict {
 pub struct Row {
     /// Which part of the tick it tries.
     pub theme: &'static str,
-    /// What happens in the scenario.
+    /// The scenario.
     pub scenario: String,
-    /// What is measured, with its unit.
+    /// Measured quantity, with its unit.
     pub quantity: &'static str,
     /// Our figure.
     pub ours: f64,
@@ -40,11 +40,11 @@ pub struct Row {
     pub limit: f64,
     /// The figures of other methods.
     pub others: Vec<Other>,
-    /// What fails, and why.
+    /// The failure of the other methods, and its cause.
     pub fails: &'static str,
-    /// What we do instead.
+    /// Our alternative.
     pub instead: &'static str,
-    /// Whether it holds.
+    /// The verdict.
     pub verdict: Verdict,
 }
 
@@ -53,11 +53,11 @@ pub struct Row {
 pub struct Words {
     /// Which part of the tick it tries.
     pub theme: &'static str,
-    /// What is measured, with its unit.
+    /// Measured quantity, with its unit.
     pub quantity: &'static str,
-    /// What fails, and why.
+    /// The failure of the other methods, and its cause.
     pub fails: &'static str,
-    /// What we do instead.
+    /// Our alternative.
     pub instead: &'static str,
 }
 

@@ -26,7 +26,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// How many rows pass, fail and were skipped.
+    /// Returns the numbers of rows that pass, fail and were skipped.
     #[must_use]
     pub fn counts(&self) -> [usize; 3] {
         let count = |wanted: fn(&Verdict) -> bool| {

@@ -7,7 +7,7 @@ use super::error::StabilityError;
 use super::material::Material;
 use super::row::{Row, Words};
 
-/// What the runtime renders along a path.
+/// The runtime's output along a path.
 struct Felt {
     taps: u32,
     /// Largest change of the whole force in a tick, N.

@@ -103,7 +103,7 @@ fn segments(axes: &[Vec<f64>], speeds: &[usize]) -> Segments {
     segments::segments(&timeline, &segments::vibration(&timeline))
 }
 
-/// What was measured at one speed, in bands of 10 Hz, dB.
+/// Returns the measured spectrum at a single speed, in bands of 10 Hz, dB.
 fn measured(steady: &Segments) -> Vec<f64> {
     let mut sum = vec![0.0; segments::POINTS];
     for segment in &steady.segments {

@@ -34,7 +34,7 @@ const MOST_TAPPED: f64 = 0.95;
 /// Change of force from tick to tick at rest that nobody calls chatter, N RMS.
 const CHATTER_N: f64 = 0.02;
 
-/// One trajectory, a row a millisecond.
+/// A trajectory, a row per millisecond.
 struct Trajectory {
     name: String,
     at_mm: Vec<[f64; 2]>,
@@ -139,7 +139,7 @@ fn debounce(force_n: &mut [f64]) {
     force_n[..first].fill(0.0);
 }
 
-/// What became of a trajectory.
+/// Totals of rendering a trajectory.
 #[derive(Default)]
 struct Told {
     landings: usize,

@@ -27,7 +27,7 @@ pub(crate) struct LoopOptions {
     /// Servo rate, 250 to 10000 Hz [default: the rate of the texture's models]
     #[arg(long, value_name = "HZ", value_parser = clap::value_parser!(u32).range(250..=10_000))]
     pub(crate) rate: Option<u32>,
-    /// What to do about missed periods
+    /// Policy for missed periods
     #[arg(long, value_enum, default_value = "skip")]
     pub(crate) overrun: OverrunName,
     /// Scheduling policy: other, fifo, fifo:PRIORITY, deadline or deadline:PERCENT
@@ -65,7 +65,7 @@ impl LoopOptions {
         self.read().map_err(one)
     }
 
-    /// What is touched, as the file holds it now, in the voice of the device's profile.
+    /// Reads the surface from its file as it is now, compensated for the device's profile.
     pub(crate) fn read(&self) -> Result<Surface, ServoSessionError> {
         let surface = match &self.file {
             None => Surface::built_in(),
@@ -161,7 +161,7 @@ impl LoopOptions {
     }
 }
 
-/// One line for each request that the system refused.
+/// Returns a line for each request that the system refused.
 pub(crate) fn refusals(grants: &[Grant]) -> Vec<String> {
     let refused = grants.iter().filter_map(|grant| {
         let refusal = grant.refusal.as_ref()?;
@@ -173,7 +173,7 @@ pub(crate) fn refusals(grants: &[Grant]) -> Vec<String> {
     refused.collect()
 }
 
-/// What an interrupt (Ctrl-C, a request to terminate) does.
+/// Flags for interrupts (Ctrl-C, a request to terminate).
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Interrupt {
     /// Set by the first one: the loop is to end.

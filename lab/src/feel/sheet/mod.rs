@@ -1,4 +1,4 @@
-//! One sheet that shows a recording: position, force, vibration, spectra and taps.
+//! A sheet that shows a recording: position, force, vibration, spectra and taps.
 
 mod closeup;
 mod legend;

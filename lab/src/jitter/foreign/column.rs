@@ -10,7 +10,7 @@ const PERCENTILES: ForeignError = ForeignError::NotRead {
     remedy: "give the latencies themselves, or for a percentiles.csv the run.hlog beside it",
 };
 
-/// What a row of units says of columns that are no times.
+/// Entries of a row of units for columns that are not times.
 const OF_OTHERS: [&str; 12] = [
     "-", "#", "1", "%", "N", "V", "A", "g", "m", "mm", "Hz", "m/s^2",
 ];
@@ -141,8 +141,8 @@ fn unit_below(field: &str) -> Option<Unit> {
     field.trim_matches(is_bracket).parse().ok()
 }
 
-/// How often each latency occurred, where the table is a histogram: its latencies ascend, and whole
-/// numbers beside them count them, not the lines.
+/// Returns the count of each latency if the table is a histogram: ascending latencies, with whole numbers beside them
+/// that are not line numbers.
 fn histogram(latencies: &[(usize, Latency)], times: &[Option<u64>]) -> Option<Vec<u64>> {
     let times: Vec<u64> = times.iter().copied().collect::<Option<_>>()?;
     let ascend = latencies.windows(2).all(|pair| pair[0].1.0 < pair[1].1.0);

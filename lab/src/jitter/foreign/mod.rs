@@ -22,12 +22,12 @@ const MOST_COUNT: u64 = 1 << 50;
 /// one in so many.
 const MOST_BEYOND: u64 = 100;
 
-/// What another tool measured.
+/// A measurement by another tool.
 #[derive(Debug)]
 pub struct Foreign {
     /// Its latencies, as one stage.
     pub run: Run,
-    /// What a reader must know of them.
+    /// Caveats about the latencies.
     pub notes: Vec<String>,
 }
 
@@ -43,7 +43,7 @@ pub enum ForeignError {
     NotRead {
         /// Its name, with an article.
         what: &'static str,
-        /// What to give instead.
+        /// The input to give instead.
         remedy: &'static str,
     },
     /// A line of a distribution or a histogram.
@@ -54,9 +54,9 @@ pub enum ForeignError {
         "{beyond} of {total} latencies lie beyond its histogram, so its percentiles are unknown"
     )]
     Beyond {
-        /// How many.
+        /// Latencies beyond the histogram.
         beyond: u64,
-        /// Of how many.
+        /// All latencies.
         total: u64,
     },
     /// No column of that name, or several that could be meant.
@@ -86,7 +86,7 @@ pub enum ForeignError {
     TooLong {
         /// Its line, from 1.
         line: usize,
-        /// How long, s.
+        /// The latency, s.
         seconds: f64,
     },
     /// More latencies than can be counted.

@@ -5,7 +5,7 @@ use super::{Counted, ForeignError, Latency, Unit};
 
 /// Lines before a percentile distribution, at most.
 const MOST_BEFORE: usize = 200;
-/// What wrk2 prints before a distribution, whose values are ms.
+/// Title of wrk2's distribution, whose values are in ms.
 const OF_WRK2: &str = "Detailed Percentile spectrum";
 
 /// Cells between blanks, commas and quotes.

@@ -144,7 +144,7 @@ impl Head {
         Self { words, unit }
     }
 
-    /// Whether it names percentiles, which are no samples.
+    /// Returns true if the head names percentiles, which are not samples.
     pub(super) fn is_percentile(&self) -> bool {
         let is = |word: &String| {
             let digits = word.strip_prefix('p').unwrap_or_default();
@@ -161,12 +161,12 @@ impl Head {
         self.words.iter().any(is)
     }
 
-    /// Whether the rows below it are percentiles.
+    /// Returns true if the rows below are percentiles.
     pub(super) fn is_list_of_percentiles(&self) -> bool {
         matches!(&self.words[..], [word] if word == "percentile" || word == "quantile")
     }
 
-    /// Whether it counts how often a value occurred.
+    /// Returns true for a column of counts.
     pub(super) fn is_count(&self) -> bool {
         let names = [
             "count",

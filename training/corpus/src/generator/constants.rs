@@ -12,7 +12,7 @@ const INTERVAL_DEVIATIONS: f64 = 2.0 * 1.959_964;
 
 macro_rules! constants {
     ($($(#[$meaning:meta])* $name:ident,)*) => {
-        /// One value of every constant; units and meanings as in `training/corpora/generator.toml`.
+        /// Values of all constants; units and meanings as in `training/corpora/generator.toml`.
         #[derive(Debug, Clone, Copy, PartialEq)]
         pub struct Constants {
             $($(#[$meaning])* pub $name: f64,)*
@@ -126,13 +126,13 @@ pub struct Constant {
     pub name: String,
     /// Unit of its values.
     pub unit: String,
-    /// What it is.
+    /// Its meaning.
     pub meaning: String,
-    /// Whether it is positive and fitted as its logarithm.
+    /// True if it is positive and fitted as its logarithm.
     pub logarithmic: bool,
     /// By physics and open data; the prior of the fit.
     pub open: Estimate,
-    /// What says so.
+    /// Source of the open value.
     pub source: String,
     /// The farthest that one material left out moves the calibrated value, as a share of the distance to the end of its
     /// interval, on the scale of the fit.

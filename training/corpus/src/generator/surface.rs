@@ -29,8 +29,8 @@ pub fn relief_power(constants: &Constants, physical: &Physical, k_per_mm: f64) -
     line(0.0) + regular * line(1.0) + broad
 }
 
-/// What an average over the contact leaves of the power of heights: `(1 + (2πkw)²)^(−3/2)` with the
-/// contact's length w. The transform of Hertz's pressure, √(1 − x²), falls as k^(−3/2).
+/// Returns the power transmission of an average over the contact, on heights: `(1 + (2πkw)²)^(−3/2)` with the contact's
+/// length w. The transform of Hertz's pressure, √(1 − x²), falls as k^(−3/2).
 #[must_use]
 pub fn contact_power(constants: &Constants, k_per_mm: f64) -> f64 {
     let x = std::f64::consts::TAU * k_per_mm * constants.contact_mm;

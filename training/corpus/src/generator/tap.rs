@@ -15,7 +15,7 @@ const IMPULSE_PER_SPEED: f64 = 0.04;
 /// Strongest acceleration of the fastest tap, m/s²: 90 % of 3.3 N on 0.05 kg.
 const PEAK_M_S2: f64 = 59.0;
 
-/// What decides the transients of a surface.
+/// Returns the impact parameters of a surface, which determine its transients.
 #[must_use]
 pub fn impact(physical: &Physical) -> Impact {
     Impact::of_material(physical.modulus_mpa, physical.loss_factor)

@@ -30,7 +30,7 @@ pub(super) struct Sounding {
     pub level_db: f64,
 }
 
-/// Whether a model vibrates. Edge models at zero speed or zero force do not.
+/// Returns true if a model vibrates. Edge models at zero speed or zero force do not.
 pub(super) fn sounds(model: &SourceModel) -> bool {
     model.variance > 0.0 && model.speed_mm_s > 0.0 && model.force_n > 0.0
 }

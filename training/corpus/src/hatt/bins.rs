@@ -3,7 +3,7 @@
 use super::kmeans::{self, Point};
 use crate::{BINS, Bin, UnifiedGrid};
 
-/// How far the grid reaches beyond the largest sample, relative to it.
+/// Margin of the grid beyond the largest sample, relative to it.
 const BEYOND: f64 = 0.02;
 
 /// The unified grid, and the scales on which distances to its bins are measured.

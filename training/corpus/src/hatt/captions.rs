@@ -33,7 +33,7 @@ pub(super) struct Captioned {
     pub held_out: Vec<String>,
 }
 
-/// What the material that each name of HaTT means has for physical parameters in the reference corpus.
+/// Returns the physical parameters in the reference corpus of the material that each HaTT name means.
 ///
 /// # Errors
 /// [`CorpusError::Syntax`], [`CorpusError::Faults`] for a `reference` that no material has.

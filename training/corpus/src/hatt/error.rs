@@ -6,7 +6,7 @@ use asperity_io::diagnostic::Diagnostic;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// How many names are printed; the others are counted.
+/// Largest number of names printed; the others are counted.
 const SHOWN: usize = 10;
 
 /// Why a folder of HaTT models cannot be used as a corpus.

@@ -23,8 +23,8 @@ pub(super) struct OwnGrid {
 }
 
 impl OwnGrid {
-    /// Whether a vertex lies on the border of the rectangle, where models are not measured but
-    /// extended.
+    /// Returns true if a vertex lies on the border of the rectangle, where models are extrapolated rather than
+    /// measured.
     pub(super) fn is_edge(&self, vertex: usize) -> bool {
         let (speed_mm_s, force_n) = self.places[vertex];
         let on = |value: f64, border: f64| value == 0.0 || value == border;

@@ -41,7 +41,7 @@ use rayon::prelude::*;
 use source::Source;
 use std::{collections::BTreeSet, path::PathBuf};
 
-/// What to load and how to augment it.
+/// Options for loading and augmenting the HaTT.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HattOptions {
     /// The folder of `Models_<name>.xml`.

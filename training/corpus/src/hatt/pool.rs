@@ -7,9 +7,8 @@ use super::{
 };
 use crate::{BINS, ORDER, augment::Draws};
 
-/// How far an entry is moved towards the model that the material's grid interpolates at the
-/// centroid, after its level is carried there by the material's own growth. At 1 all entries of a
-/// bin would be the same.
+/// Share by which an entry is moved towards the model that the material's grid interpolates at the centroid, after its
+/// level is carried there by the material's own growth. At 1 all entries of a bin would be the same.
 const TOWARDS_GRID: f64 = 0.5;
 
 /// A model carried to the centroid of its bin.
@@ -27,7 +26,7 @@ pub(super) struct Pool {
     bins: Vec<Vec<Entry>>,
 }
 
-/// One entry for each bin: LSFs, rad, and levels, dB re 1 m/s².
+/// An entry for each bin: LSFs, rad, and levels, dB re 1 m/s².
 pub(super) type Channels = ([[f32; ORDER]; BINS], [f32; BINS]);
 
 impl Pool {
@@ -82,7 +81,7 @@ impl Pool {
         })
     }
 
-    /// One entry drawn for every bin.
+    /// Draws an entry for every bin.
     pub(super) fn drawn(&self, draws: &mut Draws) -> Channels {
         self.channels(|entries| {
             let mut left = draws.uniform();

@@ -1,4 +1,4 @@
-//! What the traces of a bank say of the impact speed.
+//! Dependence of a bank's traces on the impact speed.
 
 use crate::{
     TAP_RATE_HZ, TAP_SAMPLES, TAPS,
@@ -29,7 +29,7 @@ pub struct Bank {
 }
 
 impl Bank {
-    /// Of the taps of a surface.
+    /// Measures the taps of a surface.
     #[must_use]
     pub fn of(physical: &Physical) -> Self {
         let impact = tap::impact(physical);

@@ -43,11 +43,11 @@ pub const PAIRS: [(&str, &str); 12] = [
 pub struct Point {
     /// Spatial frequency, 1/mm.
     pub k_per_mm: f64,
-    /// One-sided power spectral density, µm²·mm.
+    /// Power spectral density, one-sided, µm²·mm.
     pub density_um2_mm: f64,
 }
 
-/// How far a profile is from the generator's heights.
+/// Difference between a profile and the generator's heights.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Distance {
     /// RMS difference of third octaves of acceleration, 16–400 Hz, level aligned, dB.
@@ -78,7 +78,7 @@ pub fn profiles() -> BTreeMap<&'static str, Vec<Point>> {
     profiles
 }
 
-/// How far a measured profile is from a surface; `None` for an unknown profile.
+/// Returns the difference between a measured profile and a surface; `None` for an unknown profile.
 #[must_use]
 pub fn distance(constants: &Constants, profile: &str, physical: &Physical) -> Option<Distance> {
     let profiles = profiles();
@@ -88,7 +88,7 @@ pub fn distance(constants: &Constants, profile: &str, physical: &Physical) -> Op
     }))
 }
 
-/// How far heights of a given density are from a surface's own.
+/// Returns the difference between heights of a given density and a surface's own.
 #[must_use]
 pub fn distance_of(
     constants: &Constants,

@@ -13,7 +13,7 @@ const HELD_OUT: usize = 3;
 /// Largest fraction of the content words of a held-out caption that its material's training
 /// captions may contain.
 const LARGEST_OVERLAP: f64 = 0.50;
-/// How a provenance begins.
+/// Prefixes of a provenance.
 const ORIGINS: [&str; 5] = [
     "handbook:",
     "standard:",
@@ -217,7 +217,7 @@ pub fn words(text: &str) -> Vec<String> {
         .collect()
 }
 
-/// Whether a lower-case word says nothing about a material.
+/// Returns true if a lower-case word says nothing about a material.
 #[must_use]
 pub fn is_stop_word(word: &str) -> bool {
     word.len() < 3 || STOP_WORDS.split_whitespace().any(|stop| stop == word)

@@ -11,7 +11,7 @@ pub struct LexiconEntry {
     pub text: String,
     /// Its attributes, 0–100.
     pub rating: Rating,
-    /// How sure the rater is that an average person would agree within ±10, 0–100.
+    /// The rater's confidence that an average person would agree within ±10, 0–100.
     pub sure: f64,
 }
 

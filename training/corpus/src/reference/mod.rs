@@ -99,14 +99,14 @@ const LEXICON_FOLDER: &str = "lexicon";
 /// Ratings of the same phrases again, to compare; no part of the lexicon.
 const ANCHORS_FILE: &str = "anchors.csv";
 
-/// What to load and how to augment it.
+/// Options for loading and augmenting the reference corpus.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReferenceOptions {
     /// A folder of family files and `everyday.toml`; the committed corpus if `None`.
     pub folder: Option<PathBuf>,
     /// Augmented instances of each material.
     pub instances: usize,
-    /// How instances differ.
+    /// Variation between instances.
     pub augmentation: Augmentation,
     /// Seed of the augmentation.
     pub seed: u64,
@@ -223,7 +223,7 @@ pub fn physical() -> Result<BTreeMap<String, Physical>, CorpusError> {
     Ok(all)
 }
 
-/// Whether a file, named from the folder, belongs to the lexicon.
+/// Returns true if a file, named from the folder, belongs to the lexicon.
 fn is_lexicon(file: &str) -> bool {
     file == LEXICON_FILE || Path::new(file).starts_with(LEXICON_FOLDER)
 }

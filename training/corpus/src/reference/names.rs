@@ -1,4 +1,4 @@
-//! What has a name: the table that the compiler's prompt reader looks names up in.
+//! The table of names for the compiler's prompt reader.
 
 use super::{EMBEDDED, EMBEDDED_LEXICON, schema};
 use asperity::sources::prompt::{
@@ -232,7 +232,7 @@ fn things(file: &str, text: &str) -> Vec<String> {
         .collect()
 }
 
-/// What the phrases of a file of the lexicon speak of: their last word, after another.
+/// Returns the head words of the phrases in a file of the lexicon: the last word, where another precedes it.
 fn heads(file: &str, text: &str) -> Vec<String> {
     let entries = super::lexicon::parse([(file, text)]).expect("the committed lexicon");
     let head = |entry: super::LexiconEntry| {

@@ -3,7 +3,7 @@
 use crate::{Caption, Rating, error::CorpusError, generator::Physical};
 use serde::Deserialize;
 
-/// One file: a family of materials.
+/// A file: a family of materials.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FamilyFile {
@@ -13,7 +13,7 @@ pub struct FamilyFile {
     pub material: Vec<MaterialEntry>,
 }
 
-/// One material as the file states it.
+/// A material as the file states it.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MaterialEntry {

@@ -1,4 +1,4 @@
-//! What the numbers of a configuration may be.
+//! Permitted values of a configuration.
 
 use super::{Config, ConfigError, Recall, TextStage};
 use asperity::learned::description::LATENT;

@@ -16,7 +16,7 @@ const FOLDER: &str = "cache";
 /// Results of parts on disk.
 pub(super) struct Cache {
     folder: PathBuf,
-    /// What all results depend on.
+    /// Key prefix on which all results depend.
     base: String,
 }
 

@@ -8,7 +8,7 @@ use asperity_corpus::{
 };
 use std::path::Path;
 
-/// What the model folder holds beside what the compiler reads.
+/// Reads the model folder's configuration, which the compiler does not use.
 pub(super) fn config_of(model: &Path) -> Result<Config, EvaluateError> {
     let path = model.join("config.toml");
     let text = std::fs::read_to_string(&path).map_err(|source| EvaluateError::Unreadable {

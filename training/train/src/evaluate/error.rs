@@ -29,11 +29,11 @@ pub enum EvaluateError {
     Mismatch {
         /// The field.
         field: &'static str,
-        /// What the model says.
+        /// The model's value.
         model: String,
-        /// What was given.
+        /// The given value.
         given: String,
-        /// What to do.
+        /// The remedy.
         remedy: &'static str,
     },
     /// A file of the folder that only the evaluation reads.
@@ -41,7 +41,7 @@ pub enum EvaluateError {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: std::io::Error,
     },
     /// The committed prompts are no such list.
@@ -57,9 +57,9 @@ pub enum EvaluateError {
     Folds {
         /// Folds asked for.
         folds: usize,
-        /// How many there are to divide.
+        /// Number of items to divide.
         count: usize,
-        /// Of what.
+        /// Their kind.
         what: &'static str,
     },
     /// A result that is no JSON.
@@ -79,7 +79,7 @@ pub enum EvaluateError {
     /// Stopped by the user; what is finished is kept.
     #[error("interrupted in: {what}")]
     Interrupted {
-        /// What was under way.
+        /// The interrupted task.
         what: String,
     },
 }

@@ -39,7 +39,7 @@ pub struct Midpoints {
     pub pairs: Vec<Midpoint>,
     /// Midpoints between the ends, of each attribute.
     pub between: [Share; 4],
-    /// Of all attributes together.
+    /// The same for all attributes together.
     pub between_any: Share,
     /// Projections that lie between the ends.
     pub between_on_line: Share,

@@ -1,12 +1,12 @@
-//! What a trained model is worth: a report of a model folder.
+//! Evaluation of a trained model: a report of a model folder.
 //!
 //! Eight parts, each measured alone and kept when finished:
-//! 1. [`clustering`]: materials in the latent, beside the paper's figures, and what the
-//!    latent still says of its inputs;
+//! 1. [`clustering`]: materials in the latent, beside the paper's figures, and the information about its inputs that
+//!    the latent retains;
 //! 2. [`retrieval`]: materials found by captions never trained on;
 //! 3. [`held_out`]: textures of materials never trained on, by k-fold cross-validation;
 //! 4. [`probes`]: paraphrases, negations, and pairs that people rank;
-//! 5. [`midpoints`]: what lies halfway between two materials;
+//! 5. [`midpoints`]: latents halfway between two materials;
 //! 6. [`map`]: pictures of the anchors;
 //! 7. [`names`]: materials found by their names, and by synonyms left out of training;
 //! 8. [`held_out`]: taps completed from AR models, and AR models from taps.
@@ -124,7 +124,7 @@ impl fmt::Display for Part {
     }
 }
 
-/// What to evaluate.
+/// Options of an evaluation.
 #[derive(Debug, Clone)]
 pub struct Options<'a> {
     /// The model folder.
@@ -150,7 +150,7 @@ struct Bench<'a> {
     captions: Captions,
     /// Material of every anchor.
     materials: Vec<usize>,
-    /// Of the anchors' materials themselves.
+    /// Signatures of the anchors' materials themselves.
     signatures: Vec<Signature>,
     texts: Texts<'a>,
     config: Config,

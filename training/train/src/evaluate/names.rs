@@ -133,7 +133,7 @@ fn names<'a>(
     (names, synonyms)
 }
 
-/// What every fold looks at.
+/// Data shared by all folds.
 struct Setting<'a> {
     corpus: &'a Corpus,
     captions: &'a Captions,

@@ -1,4 +1,4 @@
-//! What is compared of a texture: spectra, levels, transients and objective attributes.
+//! Signatures of textures for comparison: spectra, levels, transients and objective attributes.
 
 use crate::attributes::{self, Layout};
 use asperity::signal::{level::nyquist_rms, lsf, spectrum::{ArmaModel, squared_magnitude}};
@@ -12,7 +12,7 @@ const BAND_HZ: (u32, u32) = (10, 450);
 const TAP_BANDS: usize = 17;
 /// Frequencies that the power of a third octave is averaged over.
 const TAP_BAND_POINTS: usize = 8;
-/// What lies this far below the strongest third octave of a trace counts as silence, dB.
+/// Depth below the strongest third octave of a trace that counts as silence, dB.
 const TAP_RANGE_DB: f64 = 50.0;
 /// Samples after the first that the initial slope of a transient is fitted to: 0.3 ms.
 const RISE_SAMPLES: usize = 3;
@@ -69,7 +69,7 @@ pub(super) struct Signature {
     pub(super) objective: Objective,
 }
 
-/// How far a texture is from another.
+/// Distance between two textures.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Distance {
     /// RMS over 10–450 Hz of the difference of log spectra, its mean taken off, mean
@@ -86,7 +86,7 @@ pub(super) struct Distance {
 }
 
 impl Signature {
-    /// Of an instance of a layout, with its friction.
+    /// Computes the signature of an instance of a layout, with its friction.
     pub(super) fn of(instance: &Instance, layout: &Layout, mu: f64) -> Self {
         let mut spectra_db = Vec::with_capacity(BINS * (BAND_HZ.1 - BAND_HZ.0 + 1) as usize);
         for model in models(instance) {
@@ -108,7 +108,7 @@ impl Signature {
         }
     }
 
-    /// How far this one is from `truth`.
+    /// Returns the distance from `truth`.
     pub(super) fn distance(&self, truth: &Self) -> Distance {
         let points = self.spectra_db.len() / BINS;
         let (mut shape_db, mut spectrum_db, mut level_db) = (0.0, 0.0, 0.0);

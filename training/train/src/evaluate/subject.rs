@@ -99,7 +99,7 @@ impl Subject {
         Ok(means.collect::<Result<_, ModelError>>()?)
     }
 
-    /// What latents decode to, with the friction of their neighbours.
+    /// Decodes latents, with the friction of their neighbours.
     pub(super) fn decode(&self, latents: &[Latent]) -> Result<Vec<Texture>, EvaluateError> {
         let textures = latents.par_iter().map(|z| {
             let instance = instance(&self.model.decode(z)?);

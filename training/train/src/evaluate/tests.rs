@@ -1,4 +1,4 @@
-//! What a whole evaluation promises, on a corpus of seconds.
+//! Tests of a whole evaluation, on a corpus that takes seconds.
 
 use super::*;
 use crate::{export, fit_on, measure, progress::Silent, synthetic, synthetic::WordBag};

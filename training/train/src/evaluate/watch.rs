@@ -1,4 +1,4 @@
-//! How an evaluation says where it is, and how it is stopped.
+//! Progress and interruption of an evaluation.
 
 use super::EvaluateError;
 use crate::progress::{EpochLoss, Progress};
@@ -9,7 +9,7 @@ pub trait Watch {
     fn begin(&mut self, what: &str, steps: usize);
     /// So many of its steps are done.
     fn done(&mut self, steps: usize);
-    /// Whether to stop.
+    /// Returns true to stop.
     fn interrupted(&self) -> bool {
         false
     }

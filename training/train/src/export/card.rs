@@ -5,7 +5,7 @@ use asperity::learned::description::ModelDescription;
 use asperity_corpus::Corpus;
 use std::fmt::Write as _;
 
-/// What the model is, what it was made of, and how well it knows its materials.
+/// Writes the model card: the model, its training data, and its accuracy on its materials.
 pub(super) fn write(
     trained: &Trained,
     corpus: &Corpus,

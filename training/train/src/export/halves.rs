@@ -15,7 +15,7 @@ pub(super) struct Halves {
 }
 
 impl Halves {
-    /// Of a row-major matrix of so many columns.
+    /// Quantises a row-major matrix of so many columns.
     pub(super) fn of(values: &[f32], columns: usize) -> Self {
         let mut scales = vec![f32::MIN_POSITIVE; columns];
         for row in values.chunks(columns.max(1)) {

@@ -48,7 +48,7 @@ pub enum ExportError {
         output: &'static str,
         /// Largest difference, relative to the largest value or 1.
         difference: f64,
-        /// What is allowed.
+        /// Largest permitted difference.
         limit: f64,
     },
     /// A description or weights that cannot be put into bytes.

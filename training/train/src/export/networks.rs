@@ -90,7 +90,7 @@ fn soft_maximum(writer: &mut Writer<'_>, likeness: &Value) -> Value {
     writer.plus(&scaled, 1.0)
 }
 
-/// What a memory says of a text.
+/// Output of a memory for a text.
 struct Remembered {
     z: Value,
     felt: Option<Value>,

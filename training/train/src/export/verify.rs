@@ -1,4 +1,4 @@
-//! What was written must answer as what was trained.
+//! Verifies that the written networks agree with the trained ones.
 
 use super::{
     ExportError,

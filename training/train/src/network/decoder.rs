@@ -83,7 +83,7 @@ pub(crate) struct TapDecoder {
     pub(crate) head: Linear,
 }
 
-/// What a latent decodes to, a row a latent.
+/// Decoder output, a row per latent.
 pub(crate) struct Decoded {
     /// [B, 18·21], rad.
     pub(crate) lsf_rad: Tensor<2>,

@@ -68,7 +68,7 @@ impl Network {
     }
 }
 
-/// Whether dropout acts, and what it draws from.
+/// Dropout, and its source of random numbers.
 pub(crate) enum Mode<'a> {
     /// No dropout.
     Evaluate,

@@ -1,4 +1,4 @@
-//! What a model folder promises.
+//! Tests of model folders.
 
 use super::training::small;
 use crate::{

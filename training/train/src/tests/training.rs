@@ -1,4 +1,4 @@
-//! What a run promises.
+//! Tests of training runs.
 
 use crate::{
     Captions, Config, FitError, Seen, Silent, Trained,

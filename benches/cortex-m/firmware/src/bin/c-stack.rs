@@ -34,7 +34,7 @@ fn measure(name: &str, call: &mut dyn FnMut() -> AsperityStatus) {
     }
 }
 
-/// What a line has room for.
+/// Returns the function's name without its prefix, which fits into a line.
 fn name_of(function: &str) -> &str {
     function.strip_prefix("asperity_").unwrap_or(function)
 }

@@ -16,7 +16,7 @@ use embedded_alloc::LlffHeap;
 static HEAP: LlffHeap = LlffHeap::empty();
 const HEAP_BYTES: usize = 2 << 20;
 
-/// Of the texture, from the command that builds this.
+/// Returns the texture's orders, from the command that builds this.
 fn orders() -> Option<Orders> {
     Some(Orders {
         poles: env!("ASPERITY_POLES", "set by `cortex-m designs`")

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-/// How the shape of a spectrum is represented where three vertices are mixed.
+/// Representation of the spectral shape in which three vertices are mixed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
     /// Coefficients of A(z), as the paper writes it.
@@ -40,7 +40,7 @@ impl Shape {
     }
 }
 
-/// How levels are mixed.
+/// Representation of the level in which vertices are mixed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Level {
     /// σ², as the paper writes it.
@@ -66,7 +66,7 @@ impl Level {
     }
 }
 
-/// How a sample is made.
+/// Filter structure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Structure {
     /// Direct form, after conversion to coefficients.
@@ -143,7 +143,7 @@ impl Arithmetic {
     }
 }
 
-/// What happens between two conversions.
+/// Behaviour between two conversions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Transition {
     /// Coefficients are held.
@@ -166,14 +166,14 @@ impl Transition {
     }
 }
 
-/// One way to render.
+/// A rendering design.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Design {
-    /// How spectral shapes are mixed.
+    /// Representation for mixing spectral shapes.
     pub shape: Shape,
-    /// How levels are mixed.
+    /// Representation for mixing levels.
     pub level: Level,
-    /// How a sample is made.
+    /// Filter structure.
     pub structure: Structure,
     /// Which filter is rendered.
     pub order: Order,
@@ -181,17 +181,16 @@ pub struct Design {
     pub arithmetic: Arithmetic,
     /// Ticks from one conversion to the next.
     pub update_ticks: usize,
-    /// What happens between two conversions.
+    /// Behaviour between two conversions.
     pub transition: Transition,
     /// Bits of a stored LSF, at most 16.
     pub lsf_bits: u32,
 }
 
 impl Design {
-    /// What the product renders with when nothing is reduced.
+    /// The product's design when nothing is reduced.
     ///
-    /// The runtime also spreads the work of one conversion over several ticks. The delay that
-    /// follows from it is not modelled here.
+    /// The runtime also spreads the work of a conversion over several ticks. The resulting delay is not modelled here.
     pub const DEFAULT: Self = Self {
         shape: Shape::LsfCosine,
         level: Level::Rms,
@@ -202,8 +201,7 @@ impl Design {
         transition: Transition::Smooth,
         lsf_bits: 16,
     };
-    /// What errors are measured against: the default in f64, converted every tick, with LSFs
-    /// that are not rounded.
+    /// Reference for all errors: the default in f64, converted every tick, with unrounded LSFs.
     pub const ORACLE: Self = Self {
         arithmetic: Arithmetic::F64,
         update_ticks: 1,

@@ -13,11 +13,11 @@ use alloc::{
 pub enum Factor {
     /// The default itself.
     Default,
-    /// How spectral shapes are mixed.
+    /// Mixing of spectral shapes.
     Shape,
-    /// How levels are mixed.
+    /// Mixing of levels.
     Level,
-    /// How a sample is made.
+    /// Filter structure.
     Structure,
     /// Which filter is rendered.
     Order,
@@ -64,9 +64,9 @@ impl Factor {
 /// A design with its place in the comparison.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Variant {
-    /// What it varies.
+    /// The varied factor.
     pub factor: Factor,
-    /// What it is called among the variants of its factor.
+    /// Name among the variants of its factor.
     pub name: String,
     /// The design.
     pub design: Design,

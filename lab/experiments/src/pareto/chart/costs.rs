@@ -4,7 +4,7 @@ use crate::pareto::measure::Results;
 use crate::pareto::summary::VariantSummary;
 use asperity_plot::Axis;
 
-/// What a design costs: instructions, or bytes where none were counted.
+/// Cost of a design: instructions, or bytes where none were counted.
 pub(super) struct Costs {
     counted: bool,
 }

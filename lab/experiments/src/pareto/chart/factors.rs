@@ -1,4 +1,4 @@
-//! One panel for each factor: its variants among all others.
+//! A panel for each factor: its variants among all others.
 
 use super::costs::Costs;
 use super::errors::{BUDGET, error_axis, within};

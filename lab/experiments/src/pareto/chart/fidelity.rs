@@ -1,4 +1,4 @@
-//! What `--fidelity auto` saves and costs, one point for each material.
+//! Savings and costs of `--fidelity auto`, a point for each material.
 
 use super::errors::BUDGET;
 use super::picture::{Picture, finished};

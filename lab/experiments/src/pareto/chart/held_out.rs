@@ -1,4 +1,4 @@
-//! How well each method predicts measured models from the others.
+//! Errors of each method in predicting measured models from the others.
 
 use super::picture::{Picture, finished};
 use super::rows::{self, Row};

@@ -2,7 +2,7 @@
 
 use asperity_plot::{Canvas, PlotError};
 
-/// One picture in two formats.
+/// A picture in two formats.
 pub struct Picture {
     /// The picture as SVG.
     pub svg: String,

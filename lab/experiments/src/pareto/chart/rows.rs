@@ -5,12 +5,12 @@ use asperity_plot::{
     Align, Axis, Canvas, Color, Marker, Panel, Rect, Stroke, TextStyle, VAlign, ink, size,
 };
 
-/// One row.
+/// A row.
 pub(super) struct Row {
     pub(super) name: String,
     pub(super) spread: Spread,
     pub(super) color: Color,
-    /// Whether this is how the product does it.
+    /// True for the product's own method.
     pub(super) chosen: bool,
 }
 

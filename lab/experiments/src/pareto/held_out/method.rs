@@ -26,7 +26,7 @@ impl Region {
     }
 }
 
-/// How a prediction was made.
+/// A prediction method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Method {
     /// An interpolation of shape; levels are mixed as RMS.
@@ -39,7 +39,7 @@ pub enum Method {
     Powers(Exponents),
 }
 
-/// How the level of an edge model grows with speed and force.
+/// Growth of an edge model's level with speed and force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Exponents {
     /// With the exponents that fit the other models, within 0 to 2, as the compiler does.
@@ -60,7 +60,7 @@ impl Exponents {
 }
 
 impl Method {
-    /// What the method varies, and its name, for tables.
+    /// Returns the varied factor and the method's name, for tables.
     #[must_use]
     pub fn names(self) -> (&'static str, String) {
         match self {
@@ -73,16 +73,15 @@ impl Method {
     }
 }
 
-/// One prediction of one model.
+/// A method's prediction of a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prediction {
     /// Index of the model among the grid's measured ones.
     pub model: usize,
-    /// How it was predicted.
+    /// The method.
     pub method: Method,
     /// Where it lies.
     pub region: Region,
-    /// How far the prediction is from the measured model; `None` where the filter is unstable or
-    /// the level is 0.
+    /// Difference from the measured model; `None` where the filter is unstable or the level is 0.
     pub difference: Option<Difference>,
 }

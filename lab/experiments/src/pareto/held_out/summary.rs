@@ -5,16 +5,16 @@ use crate::pareto::difference::Difference;
 use crate::pareto::statistics::{Spread, percentile};
 use asperity_kernels::design::{Level, Shape};
 
-/// One method in one region over all materials.
+/// A method in one region over all materials.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MethodSummary {
-    /// How the models were predicted.
+    /// The prediction method.
     pub method: Method,
     /// Where they lie.
     pub region: Region,
     /// Models that were predicted.
     pub models: usize,
-    /// How many predictions gave no stable filter with a level.
+    /// Predictions without a stable filter or without a level.
     pub refused: usize,
     /// Distortion, level included.
     pub distortion_db: Option<Spread>,

@@ -1,4 +1,4 @@
-//! How a law follows speed: ramps through zero, wandering speeds, steady strokes.
+//! Friction laws against speed: ramps through zero, wandering speeds, steady strokes.
 
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -112,7 +112,7 @@ pub(super) fn departure_of_all(law: impl Fn() -> Law, seed: u64) -> f64 {
     worst
 }
 
-/// How much of μF_n is missing at most in a steady stroke at 10 mm/s, %.
+/// Returns the largest deficit of the friction below μF_n in a steady stroke at 10 mm/s, %.
 pub(super) fn lacking(mu: f64, law: impl Fn() -> Law) -> f64 {
     [0.1, 0.3, 1.0, 3.0]
         .into_iter()

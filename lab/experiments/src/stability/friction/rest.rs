@@ -1,5 +1,4 @@
-//! What a law does at rest: changes of sign, forces that are not finite, and a hand that
-//! rests after a stroke.
+//! Friction laws at rest: sign changes, non-finite forces, and a hand that rests after a stroke.
 
 use asperity_runtime::{Output, Sample};
 use rand_core::{Rng, SeedableRng};
@@ -12,7 +11,7 @@ use asperity_sim::hand::{Grip, GripPreset, Motion, Script};
 use asperity_sim::servo::{Servo, silence};
 use asperity_sim::session::Session;
 
-/// One count of position, m.
+/// Position resolution (a count), m.
 const COUNT_M: f64 = 0.055e-3;
 
 /// Positions, m: a stroke at 100 mm/s for 200 ms, then rest with noise of ±1 count.
@@ -38,7 +37,7 @@ pub(super) fn flips_at_rest(law: &mut Law, seed: u64) -> f64 {
     f64::from(flips) / 10.0
 }
 
-/// How many of 1000 forces at exactly zero speed are not finite.
+/// Returns the number of non-finite forces out of 1000 at exactly zero speed.
 pub(super) fn not_finite_at_rest(mut law: impl FnMut(f64) -> f64) -> f64 {
     (0..1000).filter(|_| !law(0.0).is_finite()).count() as f64
 }

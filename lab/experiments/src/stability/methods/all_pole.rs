@@ -43,7 +43,7 @@ pub fn mixed(corners: [&[f64]; 3], weights: [f64; 3]) -> Vec<f64> {
         .collect()
 }
 
-/// Whether a filter is stable: all reflection coefficients below 1.
+/// Returns true if a filter is stable: all reflection coefficients are below 1 in magnitude.
 #[must_use]
 pub fn is_stable(monic: &[f64]) -> bool {
     monic.iter().all(|a| a.is_finite()) && reflection::is_stable(monic)

@@ -7,7 +7,7 @@
 
 use asperity::model::ModelGrid;
 
-/// How a walk ends.
+/// Outcome of a walk.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Walk {
     /// In a triangle, with these weights.

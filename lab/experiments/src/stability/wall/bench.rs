@@ -20,7 +20,7 @@ pub struct Bench {
     pub damping_n_s_m: f64,
     /// Coulomb friction, N.
     pub coulomb_n: f64,
-    /// One count of position, m; 0 for a perfect sensor.
+    /// Position resolution (a count), m; 0 for a perfect sensor.
     pub position_step_m: f64,
     /// Ticks of delay on top of the hold.
     pub delay_ticks: u32,

@@ -121,8 +121,7 @@ pub fn law_j(bench: &Bench, wall: Wall) -> f64 {
     worst_j(bench, || law(wall))
 }
 
-/// How many walls of the viscous sweep are lowered, and how many of these would stay passive if
-/// they were 5 % stiffer.
+/// Returns the number of lowered walls in the viscous sweep, and of those that would stay passive if 5 % stiffer.
 #[must_use]
 pub fn lowered_walls() -> (usize, usize) {
     let (mut lowered, mut slack) = (0, 0);

@@ -40,7 +40,7 @@ pub(crate) struct Arguments {
     /// Initial depth of the device in the surface, mm (1 to 60)
     #[arg(long, value_name = "MM", default_value_t = 5.0, value_parser = depth)]
     depth_mm: f32,
-    /// How long to wait for the first position, s (1 to 600); homing a Falcon takes a while
+    /// Timeout for the first position, s (1 to 600); homing a Falcon takes a while
     #[arg(long, value_name = "S", default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..=600))]
     patience: u64,
     /// Print JSON

@@ -1,4 +1,4 @@
-//! What can be opened here, in words and as JSON.
+//! Inventory of the devices that can be opened here, as text and as JSON.
 
 use asperity_host::device::usb::scan::{Access, Found, refuse};
 use asperity_host::device::usb::{Kind, UsbError};
@@ -10,12 +10,12 @@ use serde_json::{Value, json};
 /// Devices that need neither USB nor a vendor's library.
 const ANYWHERE: [&str; 3] = ["sim:", "null:", "replay:FILE"];
 
-/// What can be opened.
+/// The devices and vendor libraries found on this machine.
 pub(super) struct Inventory {
-    /// What is on USB, or why nobody can tell.
+    /// USB devices, or why the bus cannot be scanned.
     pub(super) usb: Result<Vec<Found>, UsbError>,
     pub(super) libraries: Vec<VendorLibrary>,
-    /// Whether devices that are none of ours are shown.
+    /// True if unsupported devices are listed too.
     pub(super) all: bool,
 }
 
@@ -169,7 +169,7 @@ fn state(found: &Found) -> (&'static str, String) {
     }
 }
 
-/// What is to be said of a device on USB.
+/// Formats the entry of a USB device.
 pub(super) fn line(found: &Found) -> String {
     // What a device says of itself is no part of our text.
     let serial = found.serial.as_deref().map(plain);

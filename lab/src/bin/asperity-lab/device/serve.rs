@@ -176,7 +176,7 @@ fn alone(work: impl FnOnce() + Send + 'static) -> Result<(), Failures> {
     started.map_err(|error| one(ServoSessionError::Thread(error)))
 }
 
-/// What became of a device.
+/// Summarises the faults injected into a device and what the device felt.
 fn summary(port: &Port<AnyDevice>) -> String {
     let counts = port.counts();
     let [stalls, short, lost, unplugged] = counts.of;

@@ -138,8 +138,7 @@ pub(super) const LOG_OF_A_RUN: &str = "run.hlog";
 /// The files by which a folder holds a run.
 const OF_A_RUN: [&str; 2] = ["run.json", LOG_OF_A_RUN];
 
-/// Whether a folder is there or can be made, and holds no run that would be lost, before anything
-/// is measured.
+/// Checks before measuring that the folder exists or can be created, and that no run in it would be overwritten.
 fn check_folder(folder: &Path, force: bool) -> Result<(), Failures> {
     let held = OF_A_RUN.into_iter().find(|name| folder.join(name).exists());
     if let Some(name) = held.filter(|_| !force) {

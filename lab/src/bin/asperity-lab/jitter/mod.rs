@@ -1,4 +1,4 @@
-//! `asperity-lab jitter`: how punctual a servo loop is.
+//! `asperity-lab jitter`: latency and jitter of a servo loop.
 
 mod measure;
 mod runs;
@@ -14,7 +14,7 @@ use asperity_lab::jitter::Unit;
 
 use crate::loop_options::{self, LoopOptions};
 
-/// What `compare` and `overlay` read.
+/// Inputs accepted by `compare` and `overlay`.
 const FILES: &str =
     "A run is a folder that `asperity-lab jitter -o` wrote or the run.hlog in it, a percentile
 distribution (.hgrm, or the report of wrk2), what `cyclictest -h 1000` writes with or without --json, the table of
@@ -123,7 +123,7 @@ enum Command {
     },
 }
 
-/// What the files of other tools hold.
+/// Options for files written by other tools.
 #[derive(Debug, clap::Args)]
 struct Foreign {
     /// Stage that is drawn, and that files of other tools measured
@@ -170,9 +170,9 @@ impl From<StageName> for Stage {
 enum LoadName {
     /// No load
     None,
-    /// One busy thread per processor
+    /// A busy thread per processor
     Cpu,
-    /// One thread per processor that streams through 32 MiB
+    /// A thread per processor that streams through 32 MiB
     Memory,
     /// Repeated writes of 16 MiB that wait for the disk
     Disk,

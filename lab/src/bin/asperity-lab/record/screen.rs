@@ -47,7 +47,7 @@ pub(super) fn grid(exploration: &Exploration) -> String {
     text
 }
 
-/// What to do next, in words.
+/// Returns the instruction for the next step.
 pub(super) fn ask(exploration: &Exploration) -> String {
     let coverage = exploration.coverage();
     let now = exploration.now();

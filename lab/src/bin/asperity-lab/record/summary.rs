@@ -1,4 +1,4 @@
-//! What was recorded, for a person and as JSON.
+//! Summary of a recording, as text and as JSON.
 
 use std::path::Path;
 
@@ -20,7 +20,7 @@ pub(super) struct Summary<'s> {
     pub(super) sensor: &'s str,
     pub(super) recorded: &'s Recorded,
     pub(super) part: &'s Part,
-    /// Whether the folder was written.
+    /// True if the folder was written.
     pub(super) is_kept: bool,
 }
 

@@ -17,7 +17,7 @@ use crate::error::Plain;
 /// Significant digits of latencies.
 const DIGITS: u8 = 3;
 
-/// What the studio shows of a loop.
+/// Live data of a running loop, for the studio.
 pub(super) struct Live {
     device: LiveDevice,
     /// Ticks since they were handed over last.

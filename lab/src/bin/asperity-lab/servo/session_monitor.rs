@@ -35,7 +35,7 @@ pub(super) struct SessionMonitor<'c> {
     seen: Option<(SystemTime, u64)>,
     recorder: Option<Recorder>,
     live: Option<Live>,
-    /// Whether the user knows that nothing is recorded any more.
+    /// True once the user has been warned that recording has stopped.
     told_of_recorder: bool,
     status: ProgressBar,
     json: bool,
@@ -287,8 +287,7 @@ impl<'c> SessionMonitor<'c> {
         ));
     }
 
-    /// What the file holds now, if it has changed and can be read. A file that is just being
-    /// written is looked at again.
+    /// Returns the file's surface if it has changed and is readable. A file still being written is retried later.
     fn changed(&mut self) -> Option<Surface> {
         let (path, options) = self.watched?;
         let now = stamp(path)?;

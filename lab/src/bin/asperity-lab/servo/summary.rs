@@ -1,4 +1,4 @@
-//! What a session was, for a person and as JSON.
+//! Summary of a session, as text and as JSON.
 
 use std::path::PathBuf;
 
@@ -14,11 +14,11 @@ pub(super) struct ServoSummary<'s> {
     pub(super) surface: &'s Surface,
     pub(super) device: &'s str,
     pub(super) rate_hz: u32,
-    /// Of a replay: forces that were compared with the recording, and those that differ.
+    /// For a replay: forces compared with the recording, and those that differ.
     pub(super) repeated: Option<(u64, u64)>,
 }
 
-/// What became of records and files.
+/// The session's losses, reloads and output.
 pub(super) struct Told {
     /// Records that were lost.
     pub(super) lost: u64,

@@ -17,7 +17,7 @@ pub(super) struct MadeUp {
     pub growth: (f64, f64),
     /// RMS at 100 mm/s and 1 N, dB re 1 m/s².
     pub level_db: f64,
-    /// Whether the shape changes with speed.
+    /// True if the shape changes with speed.
     pub bends: bool,
     /// Right and upper border, mm/s and N.
     pub corner: (f64, f64),

@@ -1,4 +1,4 @@
-//! What can be typed.
+//! Command-line arguments.
 
 use asperity::learned::{inference::BackendName, text::TextEncoderChoice};
 use asperity_corpus::ConstantSet;

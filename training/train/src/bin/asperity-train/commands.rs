@@ -1,4 +1,4 @@
-//! What the commands do.
+//! Implementation of the commands.
 
 use crate::{
     Failure, boxed,
@@ -217,7 +217,7 @@ fn state_folder(output: &Path) -> Result<PathBuf, UsageError> {
     Ok(output.with_file_name(name))
 }
 
-/// Whether the folder had to be made.
+/// Creates the folder if it is missing. Returns true if it did.
 fn make_folder(folder: &Path) -> Result<bool, Failure> {
     if folder.is_dir() {
         return Ok(false);

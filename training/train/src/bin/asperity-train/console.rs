@@ -21,7 +21,7 @@ pub(crate) fn listen() -> Result<(), NoHandler> {
     })
 }
 
-/// Whether an interrupt has come.
+/// Returns true once an interrupt has come.
 pub(crate) fn is_interrupted() -> bool {
     INTERRUPTED.load(Ordering::SeqCst)
 }

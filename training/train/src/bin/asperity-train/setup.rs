@@ -1,4 +1,4 @@
-//! What both long commands need before they start.
+//! Setup common to both long commands.
 
 use crate::{Failure, boxed};
 use asperity::learned::{embedded, inference::Backend, text::{TextEncoder, TextEncoderChoice, clip::Clip}};

@@ -45,7 +45,7 @@ pub(super) fn normalised_mutual_information(x: &[usize], y: &[usize]) -> f64 {
     }
 }
 
-/// How often labels meet.
+/// Contingency table of two labellings.
 struct Table {
     cells: BTreeMap<(usize, usize), f64>,
     rows: BTreeMap<usize, f64>,

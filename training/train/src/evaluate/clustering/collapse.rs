@@ -1,4 +1,4 @@
-//! Whether a latent that clusters well still says anything of its inputs.
+//! Posterior collapse: information about the inputs in a latent that clusters well.
 
 use super::indices::sums_of_squares;
 use crate::eigen;
@@ -12,7 +12,7 @@ const ACTIVE_VARIANCE: f64 = 0.01;
 /// Deviations of inputs below these count as these: rad, dB, m/s².
 const LEAST_DEVIATION: [f64; 3] = [0.01, 0.1, 0.05];
 
-/// How much of the inputs the latent keeps, and how many directions it uses.
+/// Share of the inputs that the latent keeps, and number of directions it uses.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Collapse {
     /// Share of the variance of the LSFs, each on its own scale, that decoding the

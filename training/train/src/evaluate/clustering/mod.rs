@@ -27,7 +27,7 @@ pub const PAPER: Indices = Indices {
     mutual_information: 0.99,
 };
 
-/// How well latents tell materials apart.
+/// Separation of materials in the latent.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Indices {
     /// −1 to 1, more is better.
@@ -60,7 +60,7 @@ pub struct Clustering {
     pub materials: usize,
     /// Instances a row.
     pub instances: usize,
-    /// Whether the taps of the corpus were synthesised.
+    /// True if the taps of the corpus were synthesised.
     pub taps_synthetic: bool,
     /// All combinations.
     pub rows: Vec<Row>,

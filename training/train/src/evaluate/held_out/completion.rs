@@ -33,7 +33,7 @@ const NEAREST: usize = 2;
 /// The model, from both: what the decoder alone costs.
 const BOTH: usize = 3;
 
-/// What is given.
+/// The given modality.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Given {
     Ar,
@@ -65,7 +65,7 @@ impl Given {
         }
     }
 
-    /// How far two materials are apart in what is given.
+    /// Returns the distance of two materials in the given modality.
     fn distance(self, distance: &Distance) -> f64 {
         match self {
             Self::Ar => distance.spectrum_db,
@@ -91,7 +91,7 @@ pub struct Completed {
 /// A way to complete.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Direction {
-    /// What is completed, and from what.
+    /// Name of the completed modality, and of the given one.
     pub name: String,
     /// Every metric.
     pub metrics: Vec<Completed>,

@@ -1,4 +1,4 @@
-//! How wrong a prediction is, in every unit that matters.
+//! Errors of a prediction, in every unit that matters.
 
 use super::fold::PREDICTORS;
 use crate::evaluate::signature::{Objective, Signature};
@@ -27,7 +27,7 @@ pub const NAMES: [&str; METRICS] = [
 pub struct Trial {
     /// Its largest cosine with the mean caption of a training material.
     pub similarity: f64,
-    /// Whether each predictor's attributes lie within tolerance.
+    /// True for each predictor whose attributes lie within tolerance.
     pub within: [bool; PREDICTORS],
 }
 
@@ -60,8 +60,8 @@ pub(super) fn errors(said: &Signature, truth: &Signature) -> [f64; METRICS] {
     ]
 }
 
-/// Whether attributes are as near to the truth as a prompt may expect: 6 dB of
-/// roughness, a quarter of the hardness, and a factor of e^0.35 in μ.
+/// Returns true if attributes are as near to the truth as a prompt may expect: within 6 dB of roughness, a quarter of
+/// the hardness, and a factor of e^0.35 in μ.
 fn within_tolerance(said: &Objective, truth: &Objective) -> bool {
     let (said_even, truth_even) = (said.even(), truth.even());
     (said.rough_db - truth.rough_db).abs() < 6.0

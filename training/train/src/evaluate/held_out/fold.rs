@@ -1,4 +1,4 @@
-//! One fold: train without some materials, then ask for them by captions nobody saw.
+//! Runs a fold: trains without some materials, then asks for them by unseen captions.
 
 use super::{
     errors::{METRICS, Trial, errors},
@@ -64,7 +64,7 @@ pub struct Material {
     pub errors: [[f64; METRICS]; PREDICTORS],
 }
 
-/// What came of a fold.
+/// Results of a fold.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Fold {
     /// Materials trained on.
@@ -80,7 +80,7 @@ pub struct Fold {
     pub trials: Vec<Trial>,
 }
 
-/// What all folds share.
+/// Data shared by all folds.
 pub(super) struct Setting<'a> {
     pub(super) corpus: &'a Corpus,
     pub(super) captions: &'a Captions,
@@ -206,8 +206,8 @@ impl Asked<'_> {
         }
     }
 
-    /// Of every held-out caption of a material: its largest cosine with a mean caption of
-    /// a training material, and what each predictor says.
+    /// Predicts a material from each of its held-out captions: the caption's largest cosine with a mean caption of a
+    /// training material, and each predictor's signature.
     fn material(&self, index: usize) -> Vec<(f64, [Signature; PREDICTORS])> {
         let Setting {
             corpus, captions, ..

@@ -52,7 +52,7 @@ pub(super) fn shortened(mut config: Config, epochs: Option<usize>) -> Config {
     config
 }
 
-/// What the folds are made of.
+/// Inputs of the folds.
 pub(super) struct Inputs<'a> {
     pub(super) corpus: &'a Corpus,
     pub(super) captions: &'a Captions,

@@ -10,7 +10,7 @@ use crate::evaluate::{
 };
 use serde::{Deserialize, Serialize};
 
-/// One metric over the folds.
+/// A metric over the folds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Metric {
     /// Its name and unit.
@@ -40,7 +40,7 @@ pub struct Ranks {
 /// All folds of a way to split.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Folds {
-    /// How materials were held out.
+    /// Rule by which materials were held out.
     pub split: String,
     /// Every metric.
     pub metrics: Vec<Metric>,

@@ -18,8 +18,8 @@ use prompts::Pairs;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// How alike two ways to say the same thing feel; distances in deviations of the corpus,
-/// over `rough_db` and the logarithms of `sharp_hz`, `hard_hz` and μ.
+/// Similarity of paraphrases' textures; distances in deviations of the corpus, over `rough_db` and the logarithms of
+/// `sharp_hz`, `hard_hz` and μ.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Paraphrases {
     /// Pairs.
@@ -44,7 +44,7 @@ pub struct Step {
     pub before: f64,
     /// And after.
     pub after: f64,
-    /// Whether it went where it should.
+    /// True if it changed in the right direction.
     pub right: bool,
 }
 
@@ -71,7 +71,7 @@ pub struct Baseline {
 }
 
 impl Baseline {
-    /// Of the values of the prompts with more and with less.
+    /// Counts over pairs of values, of the prompt with more and the one with less.
     fn of(pairs: impl Iterator<Item = (f64, f64)> + Clone) -> Self {
         Self {
             right: Share::of(pairs.clone().map(|(more, less)| more > less)),
@@ -89,9 +89,9 @@ pub struct Order {
     pub sharp_hz: [f64; 3],
     /// Levels, dB.
     pub rough_db: [f64; 3],
-    /// Whether the centroids fall.
+    /// True if the centroids fall.
     pub sharp_falls: bool,
-    /// Whether the levels fall.
+    /// True if the levels fall.
     pub rough_falls: bool,
 }
 
@@ -117,16 +117,16 @@ impl Probing {
     }
 }
 
-/// What a prompt decodes to, and what is nearest to it in text.
+/// Decoded attributes of a prompt, and those of its nearest neighbours in text.
 struct Felt {
     decoded: Objective,
     material: Objective,
     phrase: Rating,
 }
 
-/// What prompts are compared with.
+/// References for the prompts.
 pub(super) struct Known<'a> {
-    /// Of the anchors' materials.
+    /// Signatures of the anchors' materials.
     pub(super) materials: &'a [Signature],
     /// Vectors and ratings.
     pub(super) lexicon: &'a [Phrase],
@@ -239,7 +239,7 @@ fn ask<'p>(
     Ok(distinct.iter().copied().zip(felt).collect())
 }
 
-/// What stands for a rating where there is no lexicon.
+/// Rating used where there is no lexicon.
 const UNRATED: Rating = Rating {
     rough: 50.0,
     slippery: 50.0,

@@ -35,7 +35,7 @@ impl Attribute {
     }
 }
 
-/// How a prompt was changed.
+/// Kind of change to a prompt.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
@@ -65,11 +65,11 @@ pub struct Direction {
     pub from: String,
     /// The prompt, changed.
     pub to: String,
-    /// What should change with it.
+    /// Attribute that should change with it.
     pub attribute: Attribute,
     /// Where to.
     pub change: Change,
-    /// How it was changed.
+    /// Kind of the change.
     pub kind: Kind,
 }
 

@@ -23,7 +23,7 @@ pub(super) struct Group {
     pub(super) bars: Vec<Bar>,
 }
 
-/// What a chart says beside its bars.
+/// Labels, axis and mark of a chart.
 pub(super) struct Chart<'a> {
     pub(super) letter: char,
     pub(super) title: &'a str,

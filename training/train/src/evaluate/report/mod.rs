@@ -44,7 +44,7 @@ pub struct Conditions {
     pub materials: usize,
     /// Families.
     pub families: usize,
-    /// Whether its taps were synthesised.
+    /// True if its taps were synthesised.
     pub taps_synthetic: bool,
     /// Text encoder.
     pub text_encoder: String,
@@ -147,7 +147,7 @@ impl Report {
         Ok(write_folder(folder, &files)?)
     }
 
-    /// What `report.json` holds.
+    /// Returns the content of `report.json`.
     ///
     /// # Errors
     /// [`EvaluateError::Encode`], which no report met so far.

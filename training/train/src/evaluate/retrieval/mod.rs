@@ -16,7 +16,7 @@ pub(super) use tfidf::{TfIdf, Words};
 /// Ranks of the right material, by one way of asking.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Found {
-    /// How it was asked.
+    /// Query form.
     pub by: String,
     /// First of all.
     pub top_1: Share,

@@ -1,4 +1,4 @@
-//! What a person with a device can send: an archive without serial numbers or names of users.
+//! Probe report for a user to send in: an archive without serial numbers or user names.
 
 use asperity_host::device::{DeviceError, Reading};
 use asperity_host::latency::Machine;
