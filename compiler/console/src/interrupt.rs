@@ -34,7 +34,7 @@ pub fn on_interrupt(mut work: impl FnMut() + Send + 'static) -> Result<(), NoHan
     use signal_hook::{consts::signal, flag, iterator::Signals};
     use std::sync::{Arc, atomic::AtomicBool};
 
-    /// What ends a process that does not ask for it, apart from what a bug or `kill -9` sends.
+    /// Signals that end a process by default, apart from those of a bug and of `kill -9`.
     const ENDING: [i32; 10] = [
         signal::SIGHUP,
         signal::SIGINT,

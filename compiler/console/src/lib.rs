@@ -1,4 +1,4 @@
-//! How a command talks: results on standard output, all else on standard error.
+//! Console output of a command: results on standard output, all else on standard error.
 //!
 //! Nothing here fails or panics because a reader has gone away.
 
@@ -158,7 +158,7 @@ impl Console {
         progress::rated_bar(self.quiet, steps, what)
     }
 
-    /// What is being done, on standard error where that is a terminal, else nothing.
+    /// Shows the current activity on standard error where that is a terminal; else shows nothing.
     #[must_use]
     pub fn activity(&self) -> ProgressBar {
         progress::activity(self.quiet)

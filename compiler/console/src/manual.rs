@@ -1,4 +1,4 @@
-//! What a package installs beside a command: completions for shells, and manual pages.
+//! Files that a package installs beside a command: completions for shells, and manual pages.
 
 use crate::Console;
 use asperity_io::{

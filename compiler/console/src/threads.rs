@@ -52,7 +52,7 @@ fn pool(mut waiting: Vec<Sender<ThreadBuilder>>) -> Result<(), ThreadPoolBuildEr
         .build_global()
 }
 
-/// How many threads a user, or else the machine, asks for.
+/// Number of threads that the user, or else the machine, asks for.
 fn wanted(variable: Option<&str>) -> usize {
     let stated = variable.and_then(|text| text.trim().parse().ok());
     stated

@@ -1,4 +1,4 @@
-//! What can be wrong with a folder, and with what its networks give.
+//! Errors of a model folder and of the outputs of its networks.
 
 use thiserror::Error;
 
@@ -8,11 +8,11 @@ use thiserror::Error;
 pub struct DiffusionError {
     /// The file, relative to the folder.
     pub part: &'static str,
-    /// What is wrong with it.
+    /// Fault of the file.
     pub problem: Problem,
 }
 
-/// What is wrong with a part.
+/// A fault of a part.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum Problem {
@@ -109,7 +109,7 @@ impl Problem {
 }
 
 impl DiffusionError {
-    /// What the user can do, in one sentence.
+    /// Returns the remedy: a step for the user, in one sentence.
     #[must_use]
     pub fn remedy(&self) -> String {
         match &self.problem {

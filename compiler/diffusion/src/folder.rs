@@ -1,16 +1,16 @@
-//! What the folder must hold.
+//! Contents of a model folder.
 
 use asperity_nn::Session;
 
-/// What the parts are of.
+/// Pipeline class and name of the model.
 pub const MODEL_INDEX: &str = "model_index.json";
-/// How the model was trained.
+/// Noise schedule and prediction type of the training.
 pub const SCHEDULER_CONFIG: &str = "scheduler/scheduler_config.json";
 /// Tokens and their ids.
 pub const VOCABULARY: &str = "tokenizer/vocab.json";
 /// Pairs of tokens that make a new one, in order.
 pub const MERGES: &str = "tokenizer/merges.txt";
-/// How texts are padded.
+/// Padding of texts.
 pub const TOKENIZER_CONFIG: &str = "tokenizer/tokenizer_config.json";
 /// The text encoder.
 pub const TEXT_ENCODER: &str = "text_encoder/model.onnx";

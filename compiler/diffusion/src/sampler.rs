@@ -24,22 +24,22 @@ pub struct StableDiffusion {
     vae_decoder: VaeDecoder,
 }
 
-/// What is asked of a model.
+/// A request to a model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request<'a> {
-    /// What the picture shows.
+    /// Description of the picture.
     pub prompt: &'a str,
-    /// What it should not show; may be empty.
+    /// Description to steer away from; may be empty.
     pub negative: &'a str,
-    /// How many steps are taken.
+    /// Number of steps.
     pub steps: usize,
-    /// How far each step goes from the negative prompt to the prompt; 1 follows the prompt alone.
+    /// Guidance scale: factor from the negative prediction to that of the prompt; 1 follows the prompt alone.
     pub guidance: f32,
-    /// How steps are taken.
+    /// Sampling method.
     pub method: Method,
     /// Seed of the noise.
     pub seed: u64,
-    /// Whether the picture repeats in both directions.
+    /// True if the picture repeats in both directions.
     pub tile: bool,
 }
 

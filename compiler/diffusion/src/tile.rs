@@ -24,8 +24,8 @@ pub(crate) fn rolled<T: Copy>(planes: &[T], size: usize, down: usize, right: usi
 pub(crate) const ROLLS: [(bool, bool); 4] =
     [(false, false), (false, true), (true, false), (true, true)];
 
-/// How much a pixel of a picture that was rolled by half counts, or of one that was not. The two
-/// add up to 1. It is 0 up to an eighth of the size from the border of what was decoded.
+/// Weight of a pixel in the decoded picture, rolled by half or not. The two weights add up to 1. The weight is 0 up to
+/// an eighth of the size from the border of the decoded picture.
 pub(crate) fn weight(pixel: usize, size: usize, is_rolled: bool) -> f32 {
     let place = (pixel as f32 + 0.5) / size as f32;
     let distance = place.min(1.0 - place);

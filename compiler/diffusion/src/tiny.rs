@@ -36,10 +36,10 @@ const SCALING: f64 = 0.18215;
 const READ: usize = 8;
 const SIZE: usize = LATENT * LATENT;
 
-/// What a tiny folder is like.
+/// Options of a tiny folder.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
-    /// What its UNet gives.
+    /// Quantity that its UNet predicts.
     pub prediction: Prediction,
     /// Type of its UNet's steps: int64, int32 or float32.
     pub timestep: ElementType,
@@ -47,7 +47,7 @@ pub struct Options {
     pub text_width: usize,
     /// Width of text that its UNet takes.
     pub unet_text_width: usize,
-    /// Whether its UNet gives NaN.
+    /// True if its UNet outputs NaN.
     pub is_broken: bool,
 }
 
@@ -185,7 +185,7 @@ fn projection(width: usize) -> Vec<f32> {
     numbers.into_iter().map(|x| gain * x).collect()
 }
 
-/// What x₀ is like whatever the text.
+/// The part of x₀ that does not depend on the text.
 fn pattern() -> Vec<f32> {
     let numbers = Noise::new(3).normal(CHANNELS * SIZE);
     numbers.into_iter().map(|x| 0.05 * x).collect()

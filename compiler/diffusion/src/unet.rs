@@ -45,12 +45,12 @@ pub(crate) struct Unet {
     session: Box<dyn Session>,
     timestep: Port,
     output: String,
-    /// How many latents it takes at once, where its file says so.
+    /// Latents per run, if fixed by the file.
     batch: Option<usize>,
     pub(crate) latent: Latent,
 }
 
-/// What a latent is steered by.
+/// Inputs that steer a latent.
 pub(crate) struct Guidance<'a> {
     pub(crate) prompt: &'a Embedding,
     pub(crate) negative: &'a Embedding,
@@ -87,7 +87,7 @@ impl Unet {
         })
     }
 
-    /// Whether it takes the trained steps as integers.
+    /// Returns true if the trained steps are integers.
     pub(crate) fn takes_whole_steps(&self) -> bool {
         self.timestep.element_type != ElementType::F32
     }

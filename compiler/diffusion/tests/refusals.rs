@@ -38,7 +38,7 @@ fn changed(
     })
 }
 
-/// What a folder with a changed part is refused with.
+/// Returns the error for a folder with a changed part.
 fn refusal(change: impl FnOnce(&mut Parts)) -> DiffusionError {
     let mut parts = parts(&Options::default());
     change(&mut parts);

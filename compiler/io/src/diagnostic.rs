@@ -1,20 +1,20 @@
-//! One style for every failure that a user reads: what is wrong, then the remedy.
+//! The common style of every failure that a user reads: the fault, then the remedy.
 
 use crate::shown::{excerpt, plain};
 use std::error::Error;
 
 /// An error that says what to do about it.
 pub trait Diagnostic: Error {
-    /// What the user can do, in one sentence.
+    /// Returns the remedy: a step for the user, in one sentence.
     fn remedy(&self) -> String;
 
-    /// Whether the command was called wrongly (exit status 2) rather than failed (1).
+    /// Returns true for a usage error (exit status 2) rather than a failure (1).
     fn is_usage(&self) -> bool {
         false
     }
 }
 
-/// One failure, whatever it is of.
+/// A failure to report to the user.
 pub type Failure = Box<dyn Diagnostic + Send + Sync>;
 
 impl<E: Diagnostic + Send + Sync + 'static> From<E> for Failure {
@@ -44,7 +44,7 @@ pub fn report(error: &dyn Diagnostic) -> String {
     format!("error: {text}\n  help: {remedy}")
 }
 
-/// What is wrong, with its causes, and the remedy: escaped and shortened as in [`report`].
+/// Returns the fault, with its causes, and the remedy: escaped and shortened as in [`report`].
 #[must_use]
 pub fn texts(error: &dyn Diagnostic) -> (String, String) {
     let mut text = error.to_string();

@@ -1,4 +1,4 @@
-//! How text is shown: names, prompts and lines of files from outside; counts and sizes with units.
+//! Presentation of text: names, prompts and lines of files from outside; counts and sizes with units.
 
 use std::{borrow::Cow, fmt::Display};
 
@@ -10,9 +10,8 @@ const KEPT_LINES: (usize, usize) = (12, 4);
 /// Most names that a suggestion holds.
 const SUGGESTED: usize = 3;
 
-/// What may have been meant by a name that is not there: `did you mean "cork" or "fork"?`, the
-/// nearest spelling first. `None` where nothing is near. Case, spaces, hyphens and underscores count
-/// for nothing.
+/// Suggests names near a missing one: `did you mean "cork" or "fork"?`, the nearest spelling first. `None` where
+/// nothing is near. Case, spaces, hyphens and underscores are ignored.
 #[must_use]
 pub fn suggestion<'n>(wanted: &str, names: impl IntoIterator<Item = &'n str>) -> Option<String> {
     let folded = |name: &str| -> String {
@@ -55,7 +54,7 @@ pub fn plain(text: &str) -> Cow<'_, str> {
     Cow::Owned(plain)
 }
 
-/// Whether a character commands a terminal rather than being shown.
+/// Returns true if a character controls a terminal rather than being shown.
 fn commands(character: char) -> bool {
     match character {
         '\n' | '\t' => false,
@@ -117,7 +116,7 @@ pub fn excerpt(text: &str) -> String {
     format!("{}\n…\n{}", head.join("\n"), tail.join("\n"))
 }
 
-/// One line, cut in its middle.
+/// Cuts the middle of a long line.
 fn line(text: &str) -> Cow<'_, str> {
     let (first, last) = KEPT_CHARS;
     let at = |n: usize| text.char_indices().nth(n).map(|(index, _)| index);

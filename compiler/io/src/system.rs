@@ -1,4 +1,4 @@
-//! What the system says where a file cannot be opened, read or written, and what to do about it.
+//! Remedies for system errors on opening, reading or writing a file.
 
 use std::io::{Error, ErrorKind};
 
@@ -29,7 +29,7 @@ pub fn remedy(error: &Error) -> Option<&'static str> {
     })
 }
 
-/// Whether this process, or the whole system, may open no further file.
+/// Returns true if this process, or the whole system, has reached its limit of open files.
 fn is_out_of_files(error: &Error) -> bool {
     // ENFILE and EMFILE have no kind of their own, and these numbers on every Unix.
     #[cfg(unix)]

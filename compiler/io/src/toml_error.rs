@@ -12,7 +12,7 @@ pub struct TomlError {
     pub line: usize,
     /// Column in characters, 1-based.
     pub column: usize,
-    /// What the parser expected.
+    /// Message of the parser, in one line.
     pub message: String,
     /// The line around the place, at most 60 characters of it.
     pub near: String,

@@ -1,4 +1,4 @@
-//! What an English text says about touch, before any model reads it.
+//! Extraction of the tactile content of an English text, before any model reads it.
 //!
 //! | module | |
 //! |---|---|
@@ -24,7 +24,7 @@ pub use vocabulary::Vocabulary;
 
 /// Vectors of English words from a table made ahead of time.
 pub trait WordVectors {
-    /// Whether a word has a row, as it stands or without the ending of a plural or of a verb.
+    /// Returns true if a word has a row, as it stands or without the ending of a plural or of a verb.
     fn holds(&self, word: &str) -> bool;
 
     /// The sum of the rows of a text's words, of length one and the same width for every text; `None` where none of

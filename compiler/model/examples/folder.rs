@@ -3,7 +3,7 @@
 
 use std::{env, fs, io, path::Path};
 
-/// How the model was made.
+/// Provenance of the model: its training configuration and its model card.
 const PROVENANCE: [(&str, &[u8]); 2] = [
     ("config.toml", include_bytes!("../config.toml")),
     ("MODEL_CARD.md", include_bytes!("../MODEL_CARD.md")),

@@ -16,7 +16,7 @@ pub enum OnnxError {
     Model {
         /// Field of `ModelProto` or `GraphProto`.
         field: &'static str,
-        /// What is wrong with it.
+        /// Fault of the field.
         reason: String,
     },
     /// A constant whose data do not match its type or shape.
@@ -26,7 +26,7 @@ pub enum OnnxError {
         name: String,
         /// Field of `TensorProto`.
         field: &'static str,
-        /// What is wrong with it.
+        /// Fault of the field.
         reason: String,
     },
     /// An input or output whose declaration cannot be used.
@@ -36,7 +36,7 @@ pub enum OnnxError {
         direction: &'static str,
         /// Its name.
         name: String,
-        /// What is wrong with it.
+        /// Fault of the declaration.
         reason: String,
     },
     /// A node that cannot be run.
@@ -46,12 +46,12 @@ pub enum OnnxError {
         node: String,
         /// Its operator.
         op_type: String,
-        /// What is wrong with it.
+        /// Fault of the node.
         reason: NodeRefusal,
     },
 }
 
-/// What is wrong with a node.
+/// A fault of a node.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum NodeRefusal {
@@ -87,7 +87,7 @@ pub enum NodeRefusal {
     Attribute {
         /// Its name.
         name: String,
-        /// What is wrong with it.
+        /// Fault of the attribute.
         reason: String,
     },
     /// An input of a type that the operator does not take.
@@ -135,7 +135,7 @@ pub enum OpError {
     Range {
         /// Which value.
         what: &'static str,
-        /// What it is.
+        /// The value found.
         value: i64,
         /// Smallest allowed.
         low: i64,
@@ -147,7 +147,7 @@ pub enum OpError {
     Value {
         /// Which value, and what it should be.
         what: &'static str,
-        /// What it is.
+        /// The value found.
         value: i64,
     },
     /// A result of more elements than a tensor may have.

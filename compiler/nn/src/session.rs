@@ -99,7 +99,7 @@ pub enum RunError {
     MissingInput {
         /// Its name.
         name: String,
-        /// What was expected.
+        /// The expected port.
         port: String,
     },
     /// A name that is not an input, or that was given twice.
@@ -141,7 +141,7 @@ pub enum RunError {
     Backend {
         /// Which.
         backend: &'static str,
-        /// What it says.
+        /// Its message.
         message: String,
     },
 }
@@ -202,7 +202,7 @@ fn names(ports: &[Port]) -> String {
     names.join(", ")
 }
 
-/// Whether a tensor fits a port. `bound` holds the sizes that names have so far.
+/// Returns true if a tensor fits a port. `bound` holds the sizes bound to names so far.
 fn fits<'p>(port: &'p Port, tensor: &Tensor, bound: &mut Vec<(&'p str, usize)>) -> bool {
     if tensor.element_type() != port.element_type || !tensor.is_consistent() {
         return false;

@@ -181,7 +181,7 @@ impl Tensor {
         }
     }
 
-    /// Whether the tensor has no elements.
+    /// Returns true if the tensor has no elements.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -199,7 +199,7 @@ impl Tensor {
         i64::elements(self)
     }
 
-    /// Whether the number of elements is the product of the shape.
+    /// Returns true if the number of elements is the product of the shape.
     #[must_use]
     pub fn is_consistent(&self) -> bool {
         self.shape()

@@ -1,4 +1,4 @@
-//! What the writer writes reads back equal, and the same graph gives the same bytes.
+//! Written files read back equal, and the same graph gives the same bytes.
 
 use asperity_nn::{
     Bytes, Dim, ElementType, Portable, Session, Tensor,

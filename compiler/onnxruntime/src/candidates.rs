@@ -19,7 +19,7 @@ pub(crate) const SYSTEM_NAMES: &[&str] = if cfg!(windows) {
     &["libonnxruntime.so", "libonnxruntime.so.1"]
 };
 
-/// Whether a file is the library itself and not one of its providers or a source file.
+/// Returns true if a file is the library itself, not a provider library or a source file.
 fn is_library(name: &OsStr) -> bool {
     let Some(name) = name.to_str() else {
         return false;

@@ -14,7 +14,7 @@ use crate::{
     library::{self, Opened},
 };
 
-/// How the library was found. The variants are in the order of the search.
+/// Location in which the library was found. The variants are in the order of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Source {
@@ -49,7 +49,7 @@ pub struct Discovery {
     pub path: PathBuf,
     /// The version that it reports, for example `1.31.1`.
     pub version: String,
-    /// How it was found.
+    /// Location in which it was found.
     pub source: Source,
 }
 
@@ -66,7 +66,7 @@ impl fmt::Display for Discovery {
     }
 }
 
-/// One place that was searched without success.
+/// A location that was searched without success.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Attempt {
     /// Why it was searched.
@@ -90,12 +90,12 @@ impl fmt::Display for Attempt {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("ONNX Runtime was not found; tried {}", self.listed())]
 pub struct NotFound {
-    /// What was tried, in order.
+    /// Attempts, in order.
     pub attempts: Vec<Attempt>,
 }
 
 impl NotFound {
-    /// What the user can do, in one sentence.
+    /// Returns the remedy: a step for the user, in one sentence.
     #[must_use]
     pub fn remedy(&self) -> String {
         "run `pip install onnxruntime`, or unpack a release of \

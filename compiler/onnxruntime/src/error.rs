@@ -29,7 +29,7 @@ pub enum LoadError {
 }
 
 impl LoadError {
-    /// What the user can do, in one sentence.
+    /// Returns the remedy: a step for the user, in one sentence.
     #[must_use]
     pub fn remedy(&self) -> String {
         match self {

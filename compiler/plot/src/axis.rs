@@ -2,7 +2,7 @@
 
 use crate::range::{extent, widened};
 
-/// How values map to positions.
+/// Mapping of values to positions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
     /// Proportional.
@@ -23,11 +23,11 @@ pub struct Axis {
     pub min: f64,
     /// Value at the right or upper end; above `min`.
     pub max: f64,
-    /// How values map to positions.
+    /// Mapping of values to positions.
     pub scale: Scale,
     /// About how many ticks to draw.
     pub tick_count: usize,
-    /// Whether ticks carry numbers; of panels that share an axis only one needs them.
+    /// True if ticks carry numbers; of panels that share an axis only one needs them.
     pub numbered: bool,
 }
 
@@ -223,7 +223,7 @@ fn percentile_ticks(min: f64, max: f64) -> Vec<(f64, String)> {
         .collect()
 }
 
-/// How many decimals show every multiple of `step` exactly.
+/// Returns the decimals that show every multiple of `step` exactly.
 fn decimals_of(step: f64) -> usize {
     (0..12)
         .find(|&decimals| {

@@ -162,7 +162,7 @@ impl Canvas {
     }
 }
 
-/// How `tiny_skia` paints a colour: smooth at the edges.
+/// Returns the `tiny_skia` paint of a colour, with smooth edges.
 pub(crate) fn paint(color: Color) -> Paint<'static> {
     let mut paint = Paint {
         anti_alias: true,

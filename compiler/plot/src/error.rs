@@ -1,4 +1,4 @@
-//! What can go wrong while a picture is drawn.
+//! Errors of drawing a picture.
 
 /// Why a picture could not be drawn.
 #[derive(Debug, thiserror::Error)]

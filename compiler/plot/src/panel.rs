@@ -41,7 +41,7 @@ pub struct Panel {
     pub x: Axis,
     /// The vertical axis.
     pub y: Axis,
-    /// Whether light lines mark the ticks behind the data.
+    /// True if light lines mark the ticks behind the data.
     pub grid: bool,
     pub(crate) letter: Option<char>,
     pub(crate) title: String,

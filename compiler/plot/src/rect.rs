@@ -43,7 +43,7 @@ impl Rect {
         (self.x + 0.5 * self.width, self.y + 0.5 * self.height)
     }
 
-    /// Whether a point lies inside or on the edge.
+    /// Returns true if a point lies inside or on the edge.
     #[must_use]
     pub fn contains(&self, (x, y): (f32, f32)) -> bool {
         x >= self.x && x <= self.right() && y >= self.y && y <= self.bottom()

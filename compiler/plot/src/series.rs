@@ -50,7 +50,7 @@ impl Panel {
     }
 }
 
-/// What one column of pixels shows: first, smallest, largest and last value.
+/// Values of a column of pixels: first, smallest, largest and last.
 struct Extremes {
     first: f32,
     last: f32,

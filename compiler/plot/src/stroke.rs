@@ -1,4 +1,4 @@
-//! How a line is drawn.
+//! Style of a line.
 
 use crate::color::{Color, ink};
 

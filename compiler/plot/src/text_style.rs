@@ -1,4 +1,4 @@
-//! How text is set.
+//! Style of text.
 
 use crate::color::{Color, ink};
 use crate::size;

@@ -5,7 +5,7 @@
 use asperity_preview::{Description, Picture};
 use std::{env, error::Error, fs, time::Instant};
 
-/// What the sheet of `docs/preview.md` shows.
+/// Prompts of the contact sheet in `docs/preview.md`.
 const PROMPTS: [&str; 30] = [
     "cork",
     "velvet",

@@ -1,4 +1,4 @@
-//! How a pattern is drawn: its colours, size and depth.
+//! Appearance of a pattern: its colours, size and depth.
 
 use crate::color::Rgb;
 
@@ -7,7 +7,7 @@ use crate::color::Rgb;
 pub(crate) struct Appearance {
     /// Colours of the pattern's parts; the last one stands for those that are left out.
     pub(crate) colors: Vec<Rgb>,
-    /// How many features go over the patch; the pattern's own number if `None`.
+    /// Features across the patch; the pattern's own number if `None`.
     pub(crate) cells: Option<f32>,
     /// Share of the pattern's own number of features, from the spectrum.
     pub(crate) fineness: f32,
@@ -29,7 +29,7 @@ impl Appearance {
         self.colors.get(part.min(last)).copied().unwrap_or([0.5; 3])
     }
 
-    /// One of the colours, by chance.
+    /// Picks a random colour; `chance` is in 0..1.
     pub(crate) fn any(&self, chance: f32) -> Rgb {
         self.color((chance * self.colors.len() as f32) as usize)
     }

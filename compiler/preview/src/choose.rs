@@ -73,7 +73,7 @@ fn felt(look: &mut Appearance, feel: Feel) {
     look.grain = (cells.clamp(5, 90), strength as f32);
 }
 
-/// One pattern: the one with the largest share, in the colours of those that have it.
+/// Picks the pattern with the largest share, in the mixed colours of the neighbours that have it.
 fn of_neighbours(nearest: &[(&str, f64)], table: &Table) -> Option<Material> {
     let found: Vec<(&Material, f64)> = nearest
         .iter()
@@ -164,7 +164,7 @@ fn colors(material: &Material, said: &Said<'_>) -> Vec<Rgb> {
         .collect()
 }
 
-/// How many of a pattern's parts take a dye; mortar, ground and what shows through holes do not.
+/// Number of a pattern's parts that take a dye; mortar, ground and the backing seen through holes do not.
 fn dyed_parts(pattern: Pattern) -> usize {
     match pattern {
         Pattern::Brick | Pattern::Tile => 2,

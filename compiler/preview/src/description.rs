@@ -1,4 +1,4 @@
-//! What a picture is made of: words, neighbours, feel.
+//! Input of a picture: words, neighbours, feel.
 
 /// A texture as a picture needs it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -7,15 +7,15 @@ pub struct Description<'a> {
     pub words: &'a str,
     /// The nearest materials by name, with their shares, 0..=1.
     pub nearest: &'a [(&'a str, f64)],
-    /// How much coarser its relief is than that of the thing in general, by a number among the words.
+    /// Ratio of its relief to that of the thing in general, from a number among the words.
     pub coarser: f64,
-    /// How it feels; `None` for the material as the table has it.
+    /// Feel of the texture; `None` for the material as the table has it.
     pub feel: Option<Feel>,
     /// Seed of the arrangement.
     pub seed: u64,
 }
 
-/// What of the feel is seen.
+/// Tactile attributes that affect the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Feel {
     /// Wavelength at the centroid of the vibration's spectrum, mm: speed over frequency.

@@ -1,4 +1,4 @@
-//! One light from the upper left: what a surface looks like.
+//! Shading of a surface by a single light from the upper left.
 
 use crate::{
     color::{encoded, lit, mix},
@@ -10,7 +10,7 @@ use rayon::prelude::*;
 const TO_LIGHT: [f32; 3] = [-0.48, -0.52, 0.706_5];
 /// Light that comes from everywhere, of a flat surface's.
 const AMBIENT: f32 = 0.42;
-/// How much hollows lose and peaks gain, a hundredth of a patch.
+/// Relative darkening of hollows and brightening of peaks, per hundredth of a patch.
 const HOLLOW: f32 = 0.34;
 /// Radius within which a hollow is one, of the picture.
 const HOLLOW_RADIUS: f32 = 0.016;

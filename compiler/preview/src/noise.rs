@@ -174,7 +174,7 @@ pub(crate) fn lerp(a: f32, b: f32, t: f32) -> f32 {
     a + (b - a) * t
 }
 
-/// What a place sees of points strewn over a lattice, one a cell.
+/// Cellular noise at a place: points strewn over a lattice, one per cell.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Cell {
     /// Hash of the nearest point.

@@ -6,14 +6,14 @@ use rayon::prelude::*;
 /// Pixels that one thread draws in a run, at least.
 pub(crate) const RUN: usize = 4096;
 
-/// What a pixel knows of the surface.
+/// A pixel of the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Texel {
     /// Height, patches: 0.01 is one hundredth of the picture's width.
     pub(crate) height: f32,
     /// Colour without light.
     pub(crate) color: Rgb,
-    /// How much of the light is mirrored, 0..=1.
+    /// Specular share of the light, 0..=1.
     pub(crate) gloss: f32,
     /// Light that comes on top: a reflection, a glint.
     pub(crate) glow: f32,
@@ -107,7 +107,7 @@ impl Surface {
     }
 }
 
-/// What is at the middle of each pixel, row by row; places (u, v) are in 0..1.
+/// Evaluates `at` at the middle of each pixel, row by row; places (u, v) are in 0..1.
 pub(crate) fn field<T: Send>(size: usize, at: impl Fn(f32, f32) -> T + Sync) -> Vec<T> {
     let place = |pixel: usize| (pixel as f32 + 0.5) / size as f32;
     let pixels = (0..size * size).into_par_iter().with_min_len(RUN);
@@ -156,7 +156,7 @@ impl Band<'_> {
     }
 }
 
-/// How a thread looks.
+/// Shape and colours of a thread.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Thread {
     /// Width, patches.
@@ -165,7 +165,7 @@ pub(crate) struct Thread {
     pub(crate) taper: f32,
     /// Height of its border at its beginning, patches.
     pub(crate) level: f32,
-    /// How much higher it ends, patches.
+    /// Rise of the border from beginning to end, patches.
     pub(crate) rise: f32,
     /// Height of its middle over its border, patches.
     pub(crate) lift: f32,

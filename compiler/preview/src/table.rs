@@ -8,12 +8,12 @@ use crate::{
 use serde::{Deserialize, Deserializer, de::Error as _};
 use std::{collections::BTreeMap, sync::LazyLock};
 
-/// How a material looks.
+/// Appearance of a material.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Material {
     pub(crate) pattern: Pattern,
-    /// Of the pattern's parts.
+    /// Colours of the pattern's parts.
     #[serde(deserialize_with = "colors")]
     pub(crate) colors: Vec<Rgb>,
     /// Features a patch; the pattern's own number if `None`.
@@ -27,7 +27,7 @@ pub(crate) struct Material {
     pub(crate) gloss: Option<f32>,
 }
 
-/// What a word such as "wet" does to a material.
+/// Effect of a word such as "wet" on a material.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Finish {

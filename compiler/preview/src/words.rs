@@ -1,4 +1,4 @@
-//! What a prompt says of the look: a material, a colour, a finish.
+//! Visual content of a prompt: a material, a colour, a finish.
 
 use crate::{
     color::Rgb,
@@ -14,7 +14,7 @@ const BESIDE: &[&str] = &[
 /// Words that say what the subject is not.
 const NOT: &[&str] = &["not", "no", "without", "than", "less", "never", "non"];
 
-/// What the words say.
+/// Visual content of the words.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Said<'a> {
     pub(crate) material: Option<&'a Material>,

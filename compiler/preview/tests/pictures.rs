@@ -1,4 +1,4 @@
-//! What holds for every picture.
+//! Properties of every picture.
 
 use asperity_preview::{COMPACT_BYTES, Description, Feel, Picture, SIZE, SIZES};
 

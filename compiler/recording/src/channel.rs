@@ -1,4 +1,4 @@
-//! One channel in SI units, and what was wrong with its numbers.
+//! A channel in SI units, and the faults in its samples.
 
 use crate::{
     description::{Axis, Quantity},
@@ -18,7 +18,7 @@ pub struct Channel {
     pub label: String,
     /// File it comes from.
     pub file: String,
-    /// What it measures.
+    /// The measured quantity.
     pub quantity: Quantity,
     /// Along which axis.
     pub axis: Axis,
@@ -28,11 +28,11 @@ pub struct Channel {
     pub clock: Clock,
     /// The first samples, SI; no more than memory may hold.
     pub samples: Vec<f32>,
-    /// What was seen of all samples.
+    /// Statistics of all samples.
     pub numbers: Numbers,
 }
 
-/// What was seen of the numbers of a channel while they went by.
+/// Statistics of the samples of a channel, gathered while reading.
 #[derive(Debug, Clone, Default)]
 pub struct Numbers {
     /// All samples.

@@ -1,4 +1,4 @@
-//! What can be wrong with a recording, where, and what to do about it.
+//! Errors of a recording: the fault, its place and the remedy.
 
 use crate::description::Proposal;
 use asperity_io::diagnostic::Diagnostic;
@@ -13,7 +13,7 @@ pub struct RecordingError {
     pub file: PathBuf,
     /// The line or row at fault, from 1.
     pub line: Option<u64>,
-    /// What is wrong. `Display` prints it after the place, so it is not a `source` as well.
+    /// The fault. `Display` prints it after the place, so it is not a `source` as well.
     pub problem: Problem,
 }
 
@@ -43,7 +43,7 @@ impl Diagnostic for RecordingError {
     }
 }
 
-/// What is wrong with a recording.
+/// A fault of a recording.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Problem {
@@ -66,7 +66,7 @@ pub enum Problem {
         field: &'static str,
         /// Its value.
         value: String,
-        /// What holds for it.
+        /// The rule that it breaks.
         rule: String,
     },
     /// A data file has no such column.
@@ -82,7 +82,7 @@ pub enum Problem {
     NotANumber {
         /// The column.
         column: String,
-        /// What it holds.
+        /// The text of the field.
         value: String,
     },
     /// A data file is of an unknown kind.
@@ -91,9 +91,9 @@ pub enum Problem {
     /// A data file is damaged, or of a known kind in a way that is not read.
     #[error("{what}")]
     File {
-        /// What it is.
+        /// Description of the fault.
         what: String,
-        /// What to give instead.
+        /// The input to give instead.
         remedy: &'static str,
     },
     /// A Git LFS pointer stands in place of the file.
@@ -104,7 +104,7 @@ pub enum Problem {
     DuplicateColumn {
         /// Its name.
         column: String,
-        /// How often it is there.
+        /// Number of columns with this name.
         count: usize,
     },
     /// A clock whose unit cannot be right.
@@ -179,7 +179,7 @@ fn of_no_file(proposal: Option<&Proposal>) -> String {
     }
 }
 
-/// How far two rates are apart, as a factor above 1.
+/// Ratio of two rates, at least 1.
 fn factor(one: f64, other: f64) -> f64 {
     (one / other).max(other / one)
 }

@@ -66,7 +66,7 @@ impl Friction {
         }
     }
 
-    /// Whether the law changes μ by speed by more than 5 % over the recorded speeds.
+    /// Returns true if speed changes μ by more than 5 % over the recorded speeds.
     #[must_use]
     pub fn depends_on_speed(&self) -> bool {
         let [slow, fast] = self.speeds_mm_s.map(|speed| self.mu_at(speed));
@@ -74,7 +74,7 @@ impl Friction {
     }
 }
 
-/// How μ depends on speed and load.
+/// Law of μ against speed and load.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Law {
@@ -162,7 +162,7 @@ pub fn friction(timeline: &Timeline) -> Option<Friction> {
     })
 }
 
-/// Whether the tool came to a sample in touch and the way it goes there, over the stretch of the contact.
+/// Returns true if the tool reached a sample in contact and in a straight line, over the stretch of the contact.
 fn is_straight(timeline: &Timeline, sample: usize) -> bool {
     let [x, y] = timeline.heading[sample];
     let mut way_mm = 0.0;

@@ -3,7 +3,7 @@
 use super::*;
 use crate::test_recordings::{near, timeline};
 
-/// What a timeline of these blocks gives: speed, load, μ.
+/// Timeline of blocks, each of speed (mm/s), load (N) and μ.
 fn of(blocks: &[(f64, f64, f64)]) -> Timeline {
     let mut made = timeline(blocks.len() * BLOCK);
     let drag = made.drag_n.as_mut().expect("a drag");

@@ -31,7 +31,7 @@ pub(crate) fn channel(quantity: Quantity, axis: Axis, rate_hz: f64, values: &[f6
     }
 }
 
-/// What a description says of a channel in SI units.
+/// Description of a channel in SI units.
 pub(crate) fn described(quantity: Quantity, axis: Axis) -> description::Channel {
     let unit = Unit::named(&Unit::si(quantity).replace('²', "^2"), quantity);
     description::Channel {
@@ -90,7 +90,7 @@ pub(crate) fn timeline(count: usize) -> Timeline {
     }
 }
 
-/// Whether two numbers agree to so much.
+/// Asserts that two numbers agree to within `apart`.
 #[track_caller]
 pub(crate) fn near(found: f64, expected: f64, apart: f64) {
     assert!(

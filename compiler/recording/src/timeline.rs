@@ -129,7 +129,7 @@ impl Aligned {
     }
 }
 
-/// What a hand did and what the sensors felt, at [`RATE_HZ`].
+/// Motion of the hand and signals of the sensors, at [`RATE_HZ`].
 #[derive(Debug, Clone)]
 pub struct Timeline {
     /// Its clock.
@@ -152,14 +152,14 @@ pub struct Timeline {
     pub bias_n: f64,
     /// Force against the motion, N, if it was recorded.
     pub drag_n: Option<Vec<f64>>,
-    /// Whether the tool touches the surface.
+    /// True where the tool touches the surface.
     pub contact: Vec<bool>,
-    /// Whether all channels are good.
+    /// True where all channels are good.
     pub good: Vec<bool>,
 }
 
 impl Timeline {
-    /// What follows from aligned channels, without the stretches that a check found bad.
+    /// Derives the timeline from aligned channels, without the stretches that a check found bad.
     ///
     /// # Errors
     /// [`RecordingError`] where acceleration, load or motion was not recorded.
@@ -223,7 +223,7 @@ impl Timeline {
         self.speed_mm_s.len()
     }
 
-    /// Whether there are none.
+    /// Returns true if there are no samples.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0

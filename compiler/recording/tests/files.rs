@@ -10,8 +10,8 @@ use std::{fmt::Write as _, fs, path::Path};
 
 const HEAD: &str = "name = \"oak\"\n[tool]\nmass_kg = 0.05\n";
 
-/// One CSV with acceleration, force and position at 1 kHz, `seconds` long: strokes of a hand that
-/// presses with a newton, and noise on every sensor.
+/// A CSV with acceleration, force and position at 1 kHz, `seconds` long: strokes of a hand that presses with 1 N, and
+/// noise on every sensor.
 fn table(seconds: usize, edit: impl Fn(usize, &mut Vec<String>)) -> String {
     let mut state = 7_u64;
     let mut noise = move || {

@@ -220,7 +220,7 @@ fn error_db(surface: Surface, transient: &Transient) -> f64 {
     (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
 }
 
-/// What an import finds: impacts with their speeds, and transients.
+/// Results of an import: impacts with their speeds, and transients.
 fn found(surface: Surface) -> (Vec<impact::Impact>, Vec<Transient>) {
     let folder = tempfile::tempdir().expect("a folder");
     record(surface, folder.path());

@@ -4,7 +4,7 @@ use crate::error::Problem;
 use serde::Deserialize;
 use std::f64::consts::FRAC_PI_2;
 
-/// How β grows over the steps.
+/// Schedule of β over the steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Schedule {

@@ -7,7 +7,7 @@ use serde::Deserialize;
 /// Steps that a schedule may have.
 const TRAINED_STEPS: std::ops::RangeInclusive<usize> = 2..=100_000;
 
-/// What the UNet's output stands for.
+/// Quantity that the UNet predicts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 pub enum Prediction {
     /// The noise ε in x = √ᾱ·x₀ + √(1−ᾱ)·ε.
@@ -35,13 +35,13 @@ pub enum Spacing {
 pub struct Config {
     /// ᾱ of each trained step: the share of the picture in the variance, descending in (0, 1).
     pub alphas_cumprod: Vec<f64>,
-    /// What the UNet's output stands for.
+    /// Quantity that the UNet predicts.
     pub prediction: Prediction,
     /// Which steps are taken; each scheduler has a default of its own.
     pub spacing: Option<Spacing>,
     /// Added to the steps with [`Spacing::Leading`].
     pub steps_offset: usize,
-    /// Whether the last step of DDIM ends at ᾱ = 1 rather than at that of the first trained step.
+    /// True if the last step of DDIM ends at ᾱ = 1 rather than at that of the first trained step.
     pub set_alpha_to_one: bool,
 }
 
@@ -140,7 +140,7 @@ impl Config {
         })
     }
 
-    /// How many steps the model was trained on.
+    /// Number of steps on which the model was trained.
     #[must_use]
     pub fn trained_steps(&self) -> usize {
         self.alphas_cumprod.len()

@@ -15,7 +15,7 @@ pub(super) const SAMPLE: Linear = Linear {
     output: 0.0,
 };
 
-/// What the UNet gives.
+/// The output of the UNet.
 pub(super) const OUTPUT: Linear = Linear {
     sample: 0.0,
     output: 1.0,

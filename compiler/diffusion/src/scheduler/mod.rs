@@ -48,7 +48,7 @@ impl fmt::Display for Method {
     }
 }
 
-/// One step.
+/// A sampling step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
     /// The trained step whose noise is in the latent; whole unless the UNet takes numbers.

@@ -15,7 +15,7 @@ const KEYS: usize = 64;
 /// Most bytes of what a server answers instead of a file.
 const ANSWER: usize = 2048;
 
-/// What is done with effects of formats that are not read.
+/// Remedy for effects in formats that are not read.
 const EXPORT: &str = "it is not read: export the effect as AHAP, .haptic or HJIF, then run `asperity import ahap`, \
                       `haptic` or `hjif`";
 const REFUSAL: Unread = unread(
@@ -60,14 +60,14 @@ pub(super) fn of_text(bytes: &[u8]) -> Option<Format> {
     }
 }
 
-/// Whether the first key of a text in braces is in single quotes.
+/// Returns true if the first key of a text in braces is in single quotes.
 fn is_python(text: &[u8]) -> bool {
     let inner = text.iter().position(|b| !b"{[ \n\r\t".contains(b));
     // TOML has such keys in brackets, but not in braces.
     inner.is_some_and(|at| text[at] == b'\'' && text[..at].contains(&b'{'))
 }
 
-/// Whether a text is one line of a status of HTTP: `404: Not Found`.
+/// Returns true if a text is a single HTTP status line: `404: Not Found`.
 fn is_refusal(text: &[u8]) -> bool {
     let Ok(line) = std::str::from_utf8(&text[..text.len().min(ANSWER)]) else {
         return false;

@@ -1,4 +1,4 @@
-//! What a file really is, whatever it is called: by its first bytes, by what it says of itself in text, or by the keys of
+//! Detection of a file's format, whatever its name: by its first bytes, by what its text declares, or by the keys of
 //! its JSON.
 
 use super::{documents, signatures};
@@ -10,7 +10,7 @@ pub const HEAD: usize = 8192;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Format {
-    /// What Git LFS leaves in the place of a file that was not fetched.
+    /// A Git LFS pointer, left in place of a file that was not fetched.
     LfsPointer,
     /// An asset of ours.
     Asset,
@@ -34,7 +34,7 @@ pub enum Format {
     Numpy,
     /// Sound or a recording.
     Wav,
-    /// One that nothing here reads.
+    /// A known format that no command reads.
     Unread(&'static Unread),
 }
 
@@ -43,9 +43,9 @@ pub enum Format {
 pub struct Unread {
     /// Its name, with an article.
     pub name: &'static str,
-    /// How it becomes something that is read.
+    /// The way to convert it into a format that is read.
     pub remedy: &'static str,
-    /// Whether the numbers of a recording may be in it.
+    /// True if it may hold the samples of a recording.
     pub holds_data: bool,
 }
 
@@ -81,7 +81,7 @@ impl Format {
         }
     }
 
-    /// Whether the numbers of a recording may be in it.
+    /// Returns true if it may hold the samples of a recording.
     #[must_use]
     pub const fn holds_data(self) -> bool {
         match self {
@@ -116,6 +116,6 @@ impl Format {
     }
 }
 
-/// How numbers become a recording.
+/// Remedy for arrays and tables of numbers.
 pub(super) const AS_CSV: &str =
     "export its numbers as CSV; a recording goes to `asperity import recording`";

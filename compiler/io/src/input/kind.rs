@@ -1,4 +1,4 @@
-//! What a file is meant to be, and how many bytes that may take.
+//! Kinds of input, and the maximum size of each.
 
 use super::format::Format;
 use std::fmt;
@@ -6,7 +6,7 @@ use std::fmt;
 const KIB: u64 = 1024;
 const MIB: u64 = 1024 * KIB;
 
-/// What a file is meant to be.
+/// The role that a file plays as an input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Kind {
@@ -92,7 +92,7 @@ impl Kind {
         }
     }
 
-    /// Whether a file of this kind may have a format.
+    /// Returns true if a file of this kind may have a format.
     pub(super) fn takes(self, format: Format) -> bool {
         match self {
             Self::Asset => matches!(format, Format::Asset | Format::Library),
@@ -118,7 +118,7 @@ impl Kind {
         }
     }
 
-    /// What to give instead of a file that is too large.
+    /// Returns the remedy for a file that is too large: which file to give instead.
     #[must_use]
     pub const fn remedy(self) -> &'static str {
         match self {

@@ -1,5 +1,5 @@
-//! What people's JSON has and strict readers refuse: a comma behind the last entry of a list or an object, and whole
-//! numbers with a fraction of zeros.
+//! Tolerance for hand-written JSON that strict readers refuse: a comma after the last entry of a list or an object, and
+//! integers with a fraction of zeros.
 
 use std::{borrow::Cow, ops::Range};
 
@@ -62,8 +62,8 @@ fn zeros(bytes: &[u8], point: usize) -> Option<Range<usize>> {
     (is_whole && !bytes.get(end).is_some_and(goes_on)).then_some(point..end)
 }
 
-/// What a reader of JSON says is wrong, in words for what other languages write: numbers that are none, words of
-/// Python, single quotes, comments. `text` is what it read.
+/// Rewords a parse error for text that is not JSON: numbers such as NaN, Python literals, single quotes, comments.
+/// `text` is the input of the parser.
 #[must_use]
 pub fn json_fault(text: &str, error: &serde_json::Error) -> String {
     let said = error.to_string();

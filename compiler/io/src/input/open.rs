@@ -87,7 +87,7 @@ pub fn format_of(path: &Path) -> Result<Option<Format>, InputProblem> {
     }
 }
 
-/// Whether a file is a pointer of Git LFS.
+/// Returns true if the file is a Git LFS pointer.
 fn is_pointer(file: &mut File) -> io::Result<bool> {
     if file.metadata()?.len() > POINTER_BYTES {
         return Ok(false);

@@ -1,4 +1,4 @@
-//! How long a pipe is waited for.
+//! Time-outs of a pipe.
 
 use std::time::Duration;
 

@@ -15,11 +15,11 @@ use thiserror::Error;
 pub struct InputError {
     /// The file.
     pub file: PathBuf,
-    /// What is wrong.
+    /// The fault.
     pub problem: InputProblem,
 }
 
-/// What is wrong with a file.
+/// A fault of an input file.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum InputProblem {
@@ -35,7 +35,7 @@ pub enum InputProblem {
     /// It is larger than its kind may be.
     #[error("larger than {limit} bytes, the limit for {kind}", limit = kind.max_bytes())]
     TooLarge {
-        /// What it is meant to be.
+        /// The kind that was expected.
         kind: Kind,
     },
     /// A pipe gave no byte for [`MAX_SILENCE`].
@@ -50,9 +50,9 @@ pub enum InputProblem {
     /// It is of another format.
     #[error("{}, not {wanted}", format.name())]
     OtherFormat {
-        /// What it is.
+        /// The format that was detected.
         format: Format,
-        /// What it is meant to be, with an article.
+        /// The format that was expected, with an article.
         wanted: Box<str>,
     },
     /// There is nothing in it but space or zeros.
@@ -70,7 +70,7 @@ pub enum InputProblem {
 }
 
 impl InputProblem {
-    /// What the user can do, in one sentence.
+    /// Returns the remedy: a step for the user, in one sentence.
     #[must_use]
     pub fn remedy(&self) -> String {
         match self {

@@ -20,7 +20,7 @@ pub enum Reach {
     Within(PathBuf),
 }
 
-/// How a path leads out of the folder of a list.
+/// The way in which a path leaves the folder of its list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum Outside {
     /// It begins at the root, or at a drive.

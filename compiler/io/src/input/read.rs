@@ -41,10 +41,11 @@ pub fn to_end(reader: impl Read, kind: Kind) -> Result<Vec<u8>, InputProblem> {
     Ok(bytes)
 }
 
-/// Whether these bytes may be those of a file of a kind.
+/// Checks the size and the format of a file's bytes against its kind.
 ///
 /// # Errors
-/// [`InputProblem`] for more bytes than the kind may have, for none where it has some, and for those of another [`Format`](super::Format).
+/// [`InputProblem`] for more bytes than the kind may have, for an empty file where the kind must not be empty, and for
+/// those of another [`Format`](super::Format).
 pub fn admit(bytes: &[u8], kind: Kind) -> Result<(), InputProblem> {
     if bytes.len() as u64 > kind.max_bytes() {
         return Err(InputProblem::TooLarge { kind });

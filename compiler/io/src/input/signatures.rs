@@ -77,7 +77,7 @@ pub(super) const fn unread(name: &'static str, remedy: &'static str) -> Unread {
     }
 }
 
-/// One that may hold the numbers of a recording.
+/// An unread format that may hold the samples of a recording.
 const fn data(name: &'static str, remedy: &'static str) -> Unread {
     Unread {
         holds_data: true,
@@ -142,7 +142,7 @@ pub(super) fn without_mark(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
 }
 
-/// Whether units fill the file: first one of the kind of metadata, then those of known kinds.
+/// Returns true if HMPG units fill the file: first a metadata unit, then units of known kinds.
 fn is_hmpg(bytes: &[u8]) -> bool {
     let mut rest = bytes;
     let mut units = 0;

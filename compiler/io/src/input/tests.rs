@@ -1,4 +1,4 @@
-//! What is read, what is refused, and how long a refusal may take.
+//! Accepted inputs, refused inputs, and the time that a refusal may take.
 
 use super::*;
 use std::{

@@ -1,4 +1,4 @@
-//! What a parser of XML would take quadratic time or memory for is counted before it is parsed.
+//! Counts constructs for which an XML parser would take quadratic time or memory, before the parser runs.
 //!
 //! The parser compares every attribute of an element with those before it, and every element that
 //! declares a namespace holds all that are in scope. The scan below knows just enough of XML to find
@@ -89,7 +89,7 @@ pub fn check_nesting(text: &str) -> Result<(), Nesting> {
 
 /// A start or an end tag.
 struct Tag {
-    /// What is between `<` and `>`.
+    /// The bytes between `<` and `>`.
     content: Range<usize>,
     attributes: usize,
     namespaces: usize,

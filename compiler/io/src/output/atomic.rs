@@ -1,4 +1,4 @@
-//! One file, written in full or not at all.
+//! A file that is written in full or not at all.
 
 use super::{
     error::OutputError,
@@ -160,13 +160,13 @@ impl AtomicFile {
         &self.target
     }
 
-    /// Whether the bytes go to standard output.
+    /// Returns true if the bytes go to standard output.
     #[must_use]
     pub fn is_standard_output(&self) -> bool {
         matches!(&self.place, Place::Stream(stream) if stream.is_standard_output())
     }
 
-    /// Whether the target is no regular file, such as a pipe or a terminal.
+    /// Returns true if the target is not a regular file, such as a pipe or a terminal.
     #[must_use]
     pub fn is_stream(&self) -> bool {
         matches!(self.place, Place::Stream(_))

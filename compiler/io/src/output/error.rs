@@ -10,7 +10,7 @@ use thiserror::Error;
 pub struct OutputError {
     /// The output.
     pub path: PathBuf,
-    /// What failed.
+    /// The operation that failed.
     pub doing: &'static str,
     /// Why.
     pub source: io::Error,
@@ -41,12 +41,12 @@ impl Diagnostic for OutputError {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum OpenError {
-    /// One of them is an input or another output.
+    /// The output is also an input or another output.
     #[error("{output}: the output is also {other}", output = output.display())]
     Same {
         /// The output.
         output: PathBuf,
-        /// What else it is: `an input`, `another output` or `standard output`.
+        /// The other role of the path: `an input`, `another output` or `standard output`.
         other: &'static str,
     },
     /// Two new files whose names differ in case alone.
@@ -64,7 +64,7 @@ pub enum OpenError {
     /// Two files were to go to standard output.
     #[error("two outputs go to standard output")]
     TwoToStandardOutput,
-    /// One of them cannot be written.
+    /// An output cannot be written.
     #[error(transparent)]
     Output(#[from] OutputError),
 }

@@ -21,9 +21,9 @@ const PORTS: [&str; 2] = ["com", "lpt"];
 /// File names of textures.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct FileNames {
-    /// One for each texture, in their order; all differ.
+    /// File name of each texture, in their order; all differ.
     pub files: Vec<String>,
-    /// What a user should be told: names that their files do not have.
+    /// Notes to the user: names that differ from those of their files.
     pub changed: Vec<String>,
 }
 
@@ -73,7 +73,7 @@ fn safe(name: &str) -> String {
     safe
 }
 
-/// Whether a character cannot be in a file's name, or would not be seen in it as it is.
+/// Returns true if a character is refused in file names, or invisible or misleading in them.
 fn is_refused(c: char) -> bool {
     REFUSED.contains(c)
         || c.is_control()
@@ -97,7 +97,7 @@ fn is_device(name: &str) -> bool {
     DEVICES.contains(&own.as_str()) || PORTS.iter().any(is_port)
 }
 
-/// What two names have in common that some file system takes for one.
+/// Returns the key under which two names collide on some file system: lower case, composed.
 fn folded(name: &str) -> String {
     name.to_lowercase().nfc().collect()
 }

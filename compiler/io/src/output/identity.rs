@@ -23,7 +23,7 @@ pub(super) enum Identity {
 }
 
 impl Identity {
-    /// Of an input; `-` is standard input.
+    /// Identifies an input; `-` is standard input.
     pub(super) fn of_input(path: &Path) -> Self {
         if path == Path::new("-") {
             return regular(Handle::stdin());
@@ -31,7 +31,7 @@ impl Identity {
         Self::of_path(path)
     }
 
-    /// Of an output; `-` is standard output.
+    /// Identifies an output; `-` is standard output.
     pub(super) fn of_output(path: &Path) -> Self {
         if is_standard_output(path) {
             return Self::standard_output();
@@ -39,7 +39,7 @@ impl Identity {
         Self::of_path(path)
     }
 
-    /// Of standard output, which the shell may have redirected to a file.
+    /// Identifies standard output, which the shell may have redirected to a file.
     pub(super) fn standard_output() -> Self {
         regular(Handle::stdout())
     }
@@ -54,7 +54,7 @@ impl Identity {
         }
     }
 
-    /// Whether both are one file.
+    /// Returns true if both are the same file.
     pub(super) fn is(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::There(one), Self::There(two)) => one == two,
@@ -86,7 +86,7 @@ impl Identity {
     }
 }
 
-/// What tells files apart. On Unix it needs no open file, of which a process may have few.
+/// Identity of an existing file. On Unix it needs no open file, of which a process may have few.
 #[cfg(unix)]
 type FileId = (u64, u64);
 #[cfg(not(unix))]
@@ -102,7 +102,7 @@ fn id(file: Handle) -> FileId {
     file
 }
 
-/// Of an open file that may be a pipe or a terminal.
+/// Identifies an open file, which may be a pipe or a terminal.
 fn regular(handle: std::io::Result<Handle>) -> Identity {
     match handle {
         Ok(handle) if handle.as_file().metadata().is_ok_and(|m| m.is_file()) => {

@@ -43,7 +43,7 @@ struct Opened {
     file: AtomicFile,
 }
 
-/// One of the [`Outputs`] that gave it.
+/// Handle of an output, valid for the [`Outputs`] that returned it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct OutputId(usize);
 
@@ -123,7 +123,7 @@ impl Outputs {
         path.map(|path| self.open(path)).transpose()
     }
 
-    /// Whether one of them goes to standard output, which then has no room for a report.
+    /// Returns true if an output goes to standard output, which then has no room for a report.
     #[must_use]
     pub fn to_standard_output(&self) -> bool {
         self.opened

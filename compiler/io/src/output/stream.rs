@@ -14,13 +14,13 @@ const IN_MEMORY: usize = 16 << 20;
 /// to, must not be replaced: what is printed later would go to the file that is gone.
 const STANDARD_OUTPUT: [&str; 4] = ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
 
-/// Whether a path means standard output: `-`, or what the system calls it.
+/// Returns true if a path denotes standard output: `-`, or the system's names for it.
 #[must_use]
 pub fn is_standard_output(path: &Path) -> bool {
     STANDARD_OUTPUT.iter().any(|name| path.as_os_str() == *name)
 }
 
-/// How an output is called in a report.
+/// Returns the name of an output for a report.
 #[must_use]
 pub fn display(path: &Path) -> std::path::Display<'_> {
     if is_standard_output(path) {
@@ -30,7 +30,7 @@ pub fn display(path: &Path) -> std::path::Display<'_> {
     }
 }
 
-/// Whether a path names an open file of this process, which is written to, not replaced.
+/// Returns true if a path names an open file of this process, which is written to, not replaced.
 pub(super) fn is_open_file(path: &Path) -> bool {
     path == Path::new("/dev/stderr")
         || path.starts_with("/dev/fd")
@@ -44,7 +44,7 @@ pub(super) enum Sink {
     File(File),
 }
 
-/// What is written is held back until it is complete.
+/// An output that cannot be replaced: bytes are held back until they are complete.
 #[derive(Debug)]
 pub(super) struct Stream {
     sink: Sink,

@@ -1,4 +1,4 @@
-//! What is written, what is kept, and what is refused.
+//! Outputs that are written, kept and refused.
 
 use super::*;
 use crate::diagnostic::Diagnostic as _;

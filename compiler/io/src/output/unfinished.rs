@@ -1,4 +1,4 @@
-//! What must not outlive an interrupt.
+//! Files and folders that must not outlive an interrupt.
 
 use std::{
     collections::BTreeSet,

@@ -1,4 +1,4 @@
-//! What `/proc` and `/sys` hold.
+//! Access to the files of `/proc` and `/sys`.
 
 use std::{fs, path::PathBuf};
 

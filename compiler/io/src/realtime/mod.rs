@@ -16,14 +16,14 @@ use read::{
 use serde::Serialize;
 use std::{fmt::Write as _, path::Path};
 
-/// A setting: what it is now, and how it is changed.
+/// A setting: its current value, and the command that changes it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Setting {
-    /// What is set.
+    /// Name of the setting.
     pub name: &'static str,
-    /// What it is now.
+    /// Current value.
     pub now: String,
-    /// Whether that suits a servo loop; `None` where the system does not tell.
+    /// True if the value suits a servo loop; `None` where the system does not tell.
     pub good: Option<bool>,
     /// The command that changes it.
     pub change: String,

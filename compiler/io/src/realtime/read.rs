@@ -62,8 +62,8 @@ pub(super) fn throttling(files: &Files) -> Setting {
     )
 }
 
-/// Whether this process has a capability, or a limit that stands for it: `enough` is the least that
-/// does, `shown` how a lower one is worded.
+/// Checks that this process has a capability, or a sufficient resource limit in its place: `enough` is the least
+/// sufficient value, `shown` words a lower one.
 pub(super) fn privilege(
     files: &Files,
     name: &'static str,
@@ -215,7 +215,7 @@ pub(super) fn smt(files: &Files) -> Setting {
     )
 }
 
-/// Whether the kernel can look for times in which firmware or a host took the processor away.
+/// Checks that the kernel can detect latency caused by firmware or a hypervisor (hwlat).
 pub(super) fn hardware(files: &Files) -> Setting {
     let folders = ["sys/kernel/tracing", "sys/kernel/debug/tracing"];
     let tracers = folders

@@ -7,7 +7,7 @@ use std::io::{self, Read};
 pub(super) struct Blanks<R> {
     inner: R,
     active: bool,
-    /// Whether the byte before was a blank or a line end.
+    /// True if the previous byte was a blank or a line end.
     after_gap: bool,
 }
 

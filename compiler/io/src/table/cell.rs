@@ -1,4 +1,4 @@
-//! What a field holds: a number, a time, a number with its label.
+//! Values of a field: a number, a time, a labelled number.
 
 /// A number; NaN for a value that is missing (an empty field, `nan`, `NA`). With `decimal_comma`, a comma stands for
 /// the point, and a point is refused: it would group thousands.
@@ -17,7 +17,7 @@ pub fn number(text: &str, decimal_comma: bool) -> Option<f64> {
         .flatten()
 }
 
-/// Whether a text is a number with a decimal comma; `surely` where the comma cannot group thousands.
+/// Returns true if a text is a number with a decimal comma; `surely` requires a comma that cannot group thousands.
 pub(super) fn has_decimal_comma(text: &str, surely: bool) -> bool {
     let Some((whole, part)) = text.split_once(',') else {
         return false;

@@ -12,27 +12,27 @@ use super::{
 /// Bytes in which the header is looked for, with all that comes before it; a binary file has no line end for long.
 pub(super) const HEAD: usize = 64 * 1024;
 
-/// What comments begin with, of which `#` is one wherever it stands.
+/// Prefixes of comments; `#` begins one anywhere.
 pub(super) const COMMENTS: [char; 3] = ['#', '%', '/'];
 
-/// What the beginning of a table says of all of it.
+/// The layout of a table, detected from its head.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
     /// Names of the columns.
     pub columns: Vec<String>,
-    /// What a row of units below the header says of each column; none where there is no such row.
+    /// Entries of the row of units below the header, per column; empty where there is no such row.
     pub units: Vec<String>,
-    /// What the rows above the header say of each column, from top to bottom.
+    /// Entries of the rows above the header, per column, from top to bottom.
     pub groups: Vec<String>,
     /// Line of the header, from 1.
     pub header: u64,
-    /// What separates the columns.
+    /// Separator of the columns.
     pub(super) separator: Separator,
-    /// Whether numbers have a comma in place of a point.
+    /// True if numbers have a comma in place of a point.
     pub decimal_comma: bool,
-    /// Whether each field is `name:value`.
+    /// True if each field is `name:value`.
     pub(super) labelled: bool,
-    /// Whether rows may have a comment behind them.
+    /// True if rows may end in a comment.
     pub(super) comment: bool,
     /// Columns that hold text.
     pub(super) texts: Vec<usize>,
@@ -99,7 +99,7 @@ impl Layout {
         }
     }
 
-    /// Whether most rows hold text in a column.
+    /// Returns true if most rows hold text in a column.
     #[must_use]
     pub fn is_text(&self, column: usize) -> bool {
         self.texts.contains(&column)

@@ -26,17 +26,17 @@ use std::{
 };
 use thiserror::Error;
 
-/// What is wrong with a table, and where.
+/// A fault in a table, and its place.
 #[derive(Debug, Error)]
 #[error("{}{problem}", line.map(|line| format!("line {line} ")).unwrap_or_default())]
 pub struct TableError {
     /// The line at fault, from 1.
     pub line: Option<u64>,
-    /// What is wrong with it.
+    /// The fault.
     pub problem: TableProblem,
 }
 
-/// What is wrong with a table.
+/// A fault in a table.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum TableProblem {
@@ -46,9 +46,9 @@ pub enum TableProblem {
     /// It is no table, or damaged.
     #[error("{what}")]
     Damaged {
-        /// What is wrong.
+        /// Description of the fault.
         what: String,
-        /// What to do about it.
+        /// Step for the user.
         remedy: &'static str,
     },
 }
@@ -180,7 +180,7 @@ impl<R: Read> Table<R> {
         self.layout.columns.len()
     }
 
-    /// Whether there is a value for each column; a separator or a comment may follow.
+    /// Returns true if every column has a value; a separator or a comment may follow.
     fn is_whole(&self) -> bool {
         let (values, width) = (self.record.len(), self.width());
         let end = self.record.get(width);
@@ -188,7 +188,7 @@ impl<R: Read> Table<R> {
             || values == width + 1 && (self.layout.comment || end.is_some_and(<[u8]>::is_empty))
     }
 
-    /// Whether a row says nothing but words, two at least, where the table has numbers.
+    /// Returns true if a row holds only words, two at least, where the table has numbers.
     fn is_header_of_another(&self) -> bool {
         let decimal_comma = self.layout.decimal_comma;
         let is_word = |field: &[u8]| match std::str::from_utf8(field) {

@@ -11,10 +11,10 @@ const SAMPLE: usize = 32;
 /// Part of the numbers of a usual row that the first one has.
 const FIRST_ROW: f64 = 0.5;
 
-/// What separates columns.
+/// Separator of the columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Separator {
-    /// One of this byte.
+    /// A single occurrence of this byte.
     Byte(u8),
     /// Spaces and tabs, however many.
     Blanks,
@@ -156,8 +156,8 @@ impl Rows {
             .unwrap_or(own)
     }
 
-    /// Whether there are as many names as columns; behind them, LabVIEW names one for comments. NumPy writes names with
-    /// commas over columns that blanks separate: these are not parted yet.
+    /// Returns true if there are as many names as columns; LabVIEW names one more, for comments. NumPy writes names
+    /// with commas over columns that blanks separate: these are not parted yet.
     pub(super) fn fits(&self, names: &[String]) -> bool {
         let count = names.len();
         let is_parted = !names.iter().any(|name| name.ends_with([',', ';']));
@@ -165,8 +165,8 @@ impl Rows {
         is_parted && (count == self.width || has_comment())
     }
 
-    /// How many of the columns of numbers hold no word in a line, as a part; none for a line of another width or
-    /// without a number.
+    /// Fraction of the numeric columns that hold no word in a line; `None` for a line of another width or without a
+    /// number.
     fn filled(&self, text: &str) -> Option<f64> {
         let fields = self.separator.fields(text);
         let has_end = fields.len() == self.width + 1;
@@ -235,12 +235,12 @@ pub(super) fn is_number(text: &str) -> bool {
     !text.is_empty() && number(text, false).is_some()
 }
 
-/// Whether a name is that of a column of comments.
+/// Returns true for the name of a column of comments.
 pub(super) fn is_remark(name: &str) -> bool {
     name.is_empty() || name.eq_ignore_ascii_case("comment") || name.eq_ignore_ascii_case("comments")
 }
 
-/// Whether the fields of a line are those of a row of units.
+/// Returns true if the fields of a line form a row of units.
 pub(super) fn units_of(fields: &[String], width: usize, is_unit: &dyn Fn(&str) -> bool) -> bool {
     let mut told = fields.iter().filter(|field| !field.is_empty()).peekable();
     fields.len() == width && told.peek().is_some() && told.all(|field| is_unit(field))

@@ -11,14 +11,14 @@ use crate::{Vocabulary, phrase};
 /// nothing.
 const CLOSED_CLASS: &str = include_str!("closed_class.tsv");
 
-/// Whether a word has one of these classes.
+/// Returns true if a word has any of these classes.
 pub(crate) fn is(word: &str, classes: &[&str]) -> bool {
     let line = Vocabulary::new(CLOSED_CLASS).line("", word);
     let own = line.and_then(|line| line.split_once('\t'));
     own.is_some_and(|(_, own)| own.split(' ').any(|class| classes.contains(&class)))
 }
 
-/// How many words mean "not", "without" or "with", and which of these.
+/// Returns the number of words in a leading "not", "without" or "with", and the canonical word.
 pub(crate) fn meant(words: &[&str]) -> Option<(usize, &'static str)> {
     (1..=words.len().min(LONGEST)).rev().find_map(|count| {
         let said = words[..count].join(" ");
@@ -30,59 +30,59 @@ pub(crate) fn meant(words: &[&str]) -> Option<(usize, &'static str)> {
 /// Words of a line at most.
 const LONGEST: usize = 3;
 
-/// Whether a word is a colour or a pattern.
+/// Returns true for a colour or a pattern.
 #[must_use]
 pub fn is_colour(word: &str) -> bool {
     is(word, &["colour"]) || word.ends_with("coloured") || word.ends_with("chequered")
 }
 
-/// Whether a word before "of" is a part of an object.
+/// Returns true if a word before "of" names a part of an object.
 pub(crate) fn is_part(word: &str) -> bool {
     is(word, &["part"])
 }
 
-/// Whether "in", "by" or "from" after this word names the cover or the material of an object.
+/// Returns true if "in", "by" or "from" after this word names the cover or the material of an object.
 pub(crate) fn is_covering(word: &str) -> bool {
     phrase::is_cover(word) || is(word, &["covering"])
 }
 
-/// Whether a word has no meaning of its own.
+/// Returns true for a word that has no meaning of its own.
 pub(crate) fn is_function(word: &str) -> bool {
     is(word, &["determiner", "auxiliary", "link", "place"])
 }
 
-/// Whether a word is a verb of being or having.
+/// Returns true for a form of "be" or "have".
 pub(crate) fn is_auxiliary(word: &str) -> bool {
     is(word, &["auxiliary"])
 }
 
-/// Whether what follows a word is a place, an owner, a time or a use.
+/// Returns true if a place, an owner, a time or a use follows the word.
 pub(crate) fn is_place(word: &str) -> bool {
     is(word, &["place"])
 }
 
-/// Whether a word before "of" is a picture of what follows.
+/// Returns true if a word before "of" denotes a depiction.
 pub(crate) fn is_picture(word: &str) -> bool {
     is(word, &["picture"])
 }
 
-/// Whether a word is of grammar, or speaks of touching itself.
+/// Returns true for a function word, or a word for touching itself.
 #[must_use]
 pub fn is_grammar(word: &str) -> bool {
     is_function(word) || is_act(word)
 }
 
-/// Whether a word is an article, a determiner or a pronoun.
+/// Returns true for an article, a determiner or a pronoun.
 pub(crate) fn is_determiner(word: &str) -> bool {
     is(word, &["determiner"])
 }
 
-/// Whether a word joins an object and its description.
+/// Returns true if a word joins an object to its description.
 pub(crate) fn is_link(word: &str) -> bool {
     is(word, &["link"])
 }
 
-/// Whether a word speaks of touching or of the prompt itself.
+/// Returns true for a word about touching or about the prompt itself.
 pub(crate) fn is_act(word: &str) -> bool {
     is(word, &["act", "picture"])
 }

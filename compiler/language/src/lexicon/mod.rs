@@ -1,5 +1,5 @@
-//! What the reader, the tagger and the grammar know of words: names of things, what these are made of, which parts of them
-//! are things of their own, words of grammar, and what a word of no list may say.
+//! The lexicon shared by the reader, the tagger and the grammar: names of things, their substances, parts that are
+//! things of their own, function words, and the senses of words on no list.
 
 pub(crate) mod closed_class;
 mod names;
@@ -11,8 +11,7 @@ pub use names::{in_one_word, key, names, qualities};
 use crate::{Vocabulary, words::singular};
 use closed_class::{is_colour, is_grammar};
 
-/// What things are made of: lines `word TAB substance`, sorted; the substance is left out where it is the
-/// word.
+/// Substances of things: lines `word TAB substance`, sorted; the substance is left out where it equals the word.
 const SUBSTANCES: &str = include_str!("substances.tsv");
 /// Parts that are as they are, whatever they belong to.
 const OWN_PARTS: &[&str] = &[
@@ -20,7 +19,7 @@ const OWN_PARTS: &[&str] = &[
     "strap", "zip",
 ];
 
-/// Whether a text is the name of something.
+/// Returns true if a text is a name in the lexicon.
 #[must_use]
 pub fn is_name(text: &str) -> bool {
     name(&text.split(' ').collect::<Vec<_>>()).is_some()
@@ -42,7 +41,7 @@ pub(crate) fn longest(
     })
 }
 
-/// Whether a word is an adjective by its form: "ribbed", and "frosty" beside "frost".
+/// Returns true if a word has the form of an adjective: "ribbed", and "frosty" beside "frost".
 pub(crate) fn is_adjectival(word: &str) -> bool {
     let participle = word.len() > 5 && word.ends_with("ed");
     let of_noun = |stem: &str| stem.len() > 2 && (is_name(stem) || is_name(&format!("{stem}e")));
@@ -55,7 +54,7 @@ pub(crate) fn substance(word: &str) -> Option<&'static str> {
     Some(line.split_once('\t').map_or(line, |(_, name)| name))
 }
 
-/// Whether a part, in the singular, is as it is, whatever it belongs to.
+/// Returns true if a part, in the singular, feels the same whatever it belongs to.
 pub(crate) fn is_own_part(part: &str) -> bool {
     OWN_PARTS.contains(&part)
 }

@@ -1,5 +1,5 @@
-//! What the lexicon holds: names of the materials that the model knows, their synonyms, things of the
-//! rated lexicon, and the words that say how its things feel.
+//! Word lists of the lexicon: names of the materials that the model knows, their synonyms, things of the rated lexicon,
+//! and the words that say how its things feel.
 //!
 //! `names.tsv` has lines `key TAB name`, sorted by the bytes of the key; the name is left out where it
 //! equals the key. A key is a name as [`normalise`](crate::words::normalise) divides it, each word
@@ -49,7 +49,7 @@ static IN_ONE_WORD: LazyLock<HashMap<String, &'static str>> = LazyLock::new(|| {
 /// Letters of a name that may be spelt otherwise: "lame" is no lamé.
 const LEAST_LETTERS: usize = 5;
 
-/// What all spellings of a name have in common: "steel wool", "steelwool"; "crêpe", "crepe".
+/// Returns the key shared by all spellings of a name: "steel wool", "steelwool"; "crêpe", "crepe".
 #[must_use]
 pub fn in_one_word(key: &str) -> String {
     without_accents(key).replace(' ', "")
@@ -72,7 +72,7 @@ pub(crate) fn name(words: &[&str]) -> Option<&'static str> {
         })
 }
 
-/// Whether the lexicon says of something how it feels by this word.
+/// Returns true if the lexicon uses this word to describe the feel of something.
 pub(crate) fn is_quality(word: &str) -> bool {
     Vocabulary::new(QUALITIES).line("", word).is_some()
 }

@@ -1,4 +1,4 @@
-//! What a word that no list holds may say: how something feels, or what is touched.
+//! Senses of words on no list: a tactile quality, or something that can be touched.
 //!
 //! Two logistic regressions on the rows of a [table of words](WordVectors), each scaled to
 //! length one. `compiler/model/tools/export_reading.py` fits them, and prints how they do on words of no
@@ -21,12 +21,12 @@ static MODEL: LazyLock<Vec<[f32; 2]>> = LazyLock::new(|| {
 /// Participles say how something feels on less evidence: "boiled", "ironed", "crumbling".
 const PARTICIPLES: [(&str, f32); 2] = [("ed", -1.8), ("ing", -0.8)];
 
-/// What the table says of a word.
+/// Sense of a word by the table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Sense {
-    /// Whether it says how something feels.
+    /// True if the word says how something feels.
     pub(crate) touch: bool,
-    /// Whether it names something that can be touched.
+    /// True if the word names something that can be touched.
     pub(crate) thing: bool,
 }
 

@@ -1,5 +1,4 @@
-//! What the grammar of a prompt says about a material: "very rough silk", "foam, but firmer",
-//! "between cork and felt".
+//! Grammar of a prompt about a material: "very rough silk", "foam, but firmer", "between cork and felt".
 //!
 //! A text vector knows that rough silk is about silk, and hardly that it is rougher than silk.
 //! So a prompt is divided: its base is what remains without the words that change it ("silk"),
@@ -29,9 +28,9 @@ pub use relative::{Relative, Towards, relative};
 pub(crate) use table::is_noun;
 pub use table::quality_words;
 
-/// How far one attribute is to go from that of the base, in steps, of which half a one is noticed.
+/// Range for the change of an attribute relative to the base, in steps; half a step is noticeable.
 ///
-/// What the text vector says by itself is kept where it lies within the range.
+/// The value from the text vector is kept where it lies within the range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Change {
     /// Least change, in steps; negative for less of the attribute.
@@ -43,15 +42,15 @@ pub struct Change {
 /// Changes of roughness, slipperiness and hardness.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Changes {
-    /// Of the level of the vibration.
+    /// Change of the vibration level.
     pub rough: Option<Change>,
-    /// Of the friction, downwards.
+    /// Change of the friction, downwards.
     pub slippery: Option<Change>,
-    /// Of the pitch of a tap.
+    /// Change of the pitch of a tap.
     pub hard: Option<Change>,
 }
 
-/// What a prompt says.
+/// A parsed prompt.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum Phrase {
     /// A material, described by the text vector alone.
@@ -61,14 +60,14 @@ pub enum Phrase {
     Changed {
         /// The material without them.
         base: String,
-        /// What changes.
+        /// Changes to the base.
         changes: Changes,
     },
     /// A material with numbers for its roughness or hardness.
     Graded {
         /// The material without them.
         base: String,
-        /// What they say, in their order; at least one.
+        /// The grades, in their order; at least one.
         grades: Vec<Grade>,
     },
     /// An object made of a material: the material is stroked, and both are tapped.
@@ -89,9 +88,9 @@ pub enum Phrase {
     Between(String, String),
     /// An object with a cover: the cover is stroked, and both are tapped.
     Covered {
-        /// What is inside.
+        /// The object inside.
         inside: String,
-        /// What is outside.
+        /// The cover.
         cover: String,
     },
 }

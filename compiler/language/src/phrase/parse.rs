@@ -39,7 +39,7 @@ fn between(words: &[String]) -> Option<Phrase> {
     ))
 }
 
-/// Whether a participle says that one thing lies around another.
+/// Returns true if a participle says that one object covers another.
 #[must_use]
 pub fn is_cover(word: &str) -> bool {
     const VERBS: [&str; 6] = [

@@ -7,7 +7,7 @@ use super::{
     table::{self, LITTLE, NOT, NOT_AT_ALL, NOT_VERY, PLAIN, Range, Signs, VERY},
 };
 
-/// What a text is about.
+/// Subject of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Use {
     /// A material, which a prompt names beside its qualities.
@@ -21,7 +21,7 @@ const BETWEEN: [&str; 10] = [
     "of", "the", "its", "a", "an", "any", "some", "in", "that", "all",
 ];
 
-/// Whether a word is a quality by itself or compared: "rough", "rougher", "grit".
+/// Returns true for a quality, plain, compared or as a noun: "rough", "rougher", "grit".
 #[must_use]
 pub fn is_quality(word: &str) -> bool {
     adjective(word, Use::Thing).is_some()
@@ -29,7 +29,7 @@ pub fn is_quality(word: &str) -> bool {
         || table::noun(word).is_some()
 }
 
-/// Whether a word is a quality that a material has by itself, not because of what happened to it.
+/// Returns true for a quality that is inherent to a material, not the result of a process.
 #[must_use]
 pub fn is_lasting(word: &str) -> bool {
     table::adjective(word).is_some()
@@ -37,13 +37,13 @@ pub fn is_lasting(word: &str) -> bool {
         || table::noun(word).is_some()
 }
 
-/// Whether a word is an adjective or a state, of a material or in an edit: "wet".
+/// Returns true for an adjective or a state, of a material or in an edit: "wet".
 #[must_use]
 pub fn is_adjective(word: &str) -> bool {
     adjective(word, Use::Edit).is_some() || compared(word, Use::Edit).is_some()
 }
 
-/// Whether a word says how much: "very", "slightly".
+/// Returns true for a word of degree: "very", "slightly".
 #[must_use]
 pub fn is_degree(word: &str) -> bool {
     table::degree(word).is_some()

@@ -1,4 +1,4 @@
-//! What an edit asks for in words: "less gritty, more waxy", "a bit softer, more like leather".
+//! Parsing of edits in words: "less gritty, more waxy", "a bit softer, more like leather".
 
 use super::{
     Changes,
@@ -10,7 +10,7 @@ use crate::{
     words::{Token, normalise},
 };
 
-/// What an edit asks for.
+/// A parsed edit.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Relative {
     /// Where attributes go from the texture at hand.
@@ -31,7 +31,7 @@ pub struct Towards {
 }
 
 impl Relative {
-    /// Whether nothing is asked for.
+    /// Returns true if the edit asks for nothing.
     #[must_use]
     pub fn is_nothing(&self) -> bool {
         self.changes == Changes::default() && self.towards.is_none()

@@ -8,12 +8,12 @@ type Table = LazyLock<HashMap<&'static str, Signs>>;
 
 /// Adjectives.
 static ADJECTIVES: Table = LazyLock::new(|| read(include_str!("adjectives.tsv")));
-/// What happened to a material: participles and the like that say how it feels, unless they are part of a
-/// name, as in "boiled sweet".
+/// States of a material: participles and the like that say how it feels, unless they are part of a name, as in "boiled
+/// sweet".
 static STATES: Table = LazyLock::new(|| read(include_str!("states.tsv")));
 /// Nouns of qualities, for "without its grit".
 static NOUNS: Table = LazyLock::new(|| read(include_str!("nouns.tsv")));
-/// What is a quality in an edit alone.
+/// Adjectives that are qualities in an edit alone.
 static EDIT_ADJECTIVES: Table = LazyLock::new(|| read(include_str!("edit_adjectives.tsv")));
 static EDIT_NOUNS: Table = LazyLock::new(|| read(include_str!("edit_nouns.tsv")));
 
@@ -57,7 +57,8 @@ pub(super) fn edit_noun(word: &str) -> Option<Signs> {
     EDIT_NOUNS.get(word).copied()
 }
 
-/// Whether a word before a noun asks for more of it (`true`) or for less; of an edit also verbs.
+/// Returns `Some(true)` for a word before a noun that asks for more of it, `Some(false)` for less; in an edit also for
+/// verbs.
 pub(super) fn direction(word: &str, edit: bool) -> Option<bool> {
     const MORE: [&str; 4] = ["more", "extra", "added", "additional"];
     const LESS: [&str; 2] = ["less", "fewer"];
@@ -94,12 +95,12 @@ pub(super) fn noun(word: &str) -> Option<Signs> {
     own.or_else(|| adjective(stem()?)).or_else(y)
 }
 
-/// Whether a word is the noun of a quality: "grit", "roughness".
+/// Returns true for the noun of a quality: "grit", "roughness".
 pub(crate) fn is_noun(word: &str) -> bool {
     noun(word).is_some()
 }
 
-/// How far a degree goes: least and most steps.
+/// Range of a degree: least and most steps.
 pub(super) type Range = (f64, f64);
 
 /// Without a word of degree.

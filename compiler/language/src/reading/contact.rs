@@ -1,4 +1,4 @@
-//! What a sentence says is touched: the roles of its words, as groups.
+//! Tagging of a sentence: the roles of its words, as groups that describe the touched surface.
 
 use super::{
     Reader, Reading, Text,
@@ -24,7 +24,7 @@ struct Tagged {
 }
 
 impl<T: WordVectors, S: WordStates> Reader<T, S> {
-    /// What a sentence says is touched, and how many of its tokens were read.
+    /// Reads the touched surface from a sentence; also returns the number of tokens that were read.
     pub(super) fn contact(&self, text: &Text<'_>, items: &[Item]) -> (Reading, usize) {
         let tags = tag(
             &self.states.states(&text.tokens),
@@ -114,8 +114,8 @@ fn tagged(items: &[Item], tags: &[(Role, f32)]) -> Vec<Tagged> {
     tagged.collect()
 }
 
-/// What stands together is of one thing: its qualities, a number beside it, and the thing itself. What is between them
-/// parts them no more than "grey" does in "wet grey slate".
+/// Gives adjacent words one role: the qualities, a number beside them, and the thing itself. A word between them parts
+/// them no more than "grey" does in "wet grey slate".
 fn together(tagged: &mut [Tagged]) {
     let content = |tagged: &Tagged| is_content(&tagged.item) || tagged.item.class == Class::Other;
     for run in tagged.chunk_by_mut(|a, b| content(a) && content(b)) {

@@ -4,7 +4,7 @@
 use super::segment::{Class, Item};
 use crate::lexicon::closed_class::{is_colour, is_covering, is_place};
 
-/// Whether a text describes one thing, and no part of it alone says what is touched.
+/// Returns true if a text describes one object that no part of it names alone.
 pub(super) fn is_whole(items: &[Item]) -> bool {
     has_unknown_head(items) || is_description(items)
 }
@@ -36,9 +36,8 @@ fn is_name(item: &Item) -> bool {
     item.class == Class::Name
 }
 
-/// Whether what a prompt is about is known by no name, and names only say more of it: "the welds on a
-/// farm gate", "the clods thrown up by a mole". It is the last word of what follows an article at the
-/// beginning.
+/// Returns true if the head noun of a prompt is in no list, and names only modify it: "the welds on a farm gate", "the
+/// clods thrown up by a mole". The head is the last word after an article at the beginning.
 fn has_unknown_head(items: &[Item]) -> bool {
     let frame = |item: &&Item| {
         let article = ["a", "an", "the"].contains(&item.text.as_str());
@@ -83,9 +82,8 @@ fn has_unknown_head(items: &[Item]) -> bool {
         && !after.get(1).is_some_and(|item| ["mine", "yours", "ours"].contains(&item.text.as_str()))
 }
 
-/// Whether a prompt describes an object at length and does not mention who asks: "an insect hotel packed
-/// with cones", "a manhole lid in a downpour". What it says behind the name cannot be left out word by
-/// word.
+/// Returns true if a prompt describes an object at length and does not mention the speaker: "an insect hotel packed
+/// with cones", "a manhole lid in a downpour". The words after the name cannot be dropped one by one.
 fn is_description(items: &[Item]) -> bool {
     let kept: Vec<bool> = items
         .iter()

@@ -1,4 +1,4 @@
-//! What became of the words of a prompt, for people who ask.
+//! Explanation of a reading: the role assigned to each word of a prompt.
 
 use super::Reading;
 use crate::{
@@ -8,18 +8,18 @@ use crate::{
 };
 use serde::Serialize;
 
-/// What a word, or several that are one name, were taken for.
+/// Role assigned to a word, or to several that form a name.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Interpretation {
     /// The words as they were read.
     pub text: String,
-    /// `name`, `number`, `quality`, `degree`, `word` for what is encoded besides; of what is not, `object` for what carries
-    /// the surface, `denied`, `tool`, or `left out`.
+    /// `name`, `number`, `quality`, `degree`, or `word` for any other word that is encoded; for words that are not,
+    /// `object` for the carrier of the surface, `denied`, `tool`, or `left out`.
     pub role: &'static str,
 }
 
 impl Reading {
-    /// What became of every word, those that are not encoded at the end.
+    /// Returns the role of every word, those that are not encoded at the end.
     #[must_use]
     pub fn taken(&self) -> Vec<Interpretation> {
         let role = |text: &String| match text.as_str() {
@@ -48,7 +48,7 @@ impl Reading {
         kept.chain(gone).map(taken).collect()
     }
 
-    /// What its words are together, in a line.
+    /// Returns the meaning of the words together, in a line.
     #[must_use]
     pub fn together(&self) -> String {
         match &self.phrase {

@@ -19,7 +19,7 @@ use std::borrow::Cow;
 const GRAPHICS: &str = include_str!("graphics.tsv");
 /// Words of a line at most.
 const LONGEST: usize = 4;
-/// What a map is called.
+/// Words for a map.
 const MAPS: &[&str] = &[
     "map", "maps", "mapping", "channel", "channels", "pass", "passes", "slot", "mapped",
 ];
@@ -153,7 +153,7 @@ fn is_map(words: &str) -> bool {
     role(words) == Some("map")
 }
 
-/// How many tokens the longest name takes that they begin with.
+/// Number of tokens in the longest name at the start.
 fn named(tokens: &[Token]) -> Option<usize> {
     let words = tokens.iter().map_while(|token| word(Some(token)));
     let words: Vec<&str> = words.take(lexicon::LONGEST).collect();
@@ -192,7 +192,7 @@ fn unwanted(tokens: &mut Vec<Token>, gone: &mut Vec<String>) {
     tokens.drain(start..end);
 }
 
-/// How many tokens a term of graphics takes that they begin with, the longest one, and its role.
+/// Finds the longest graphics term at the start: its number of tokens and its role.
 fn longest(tokens: &[Token]) -> Option<(usize, &'static str)> {
     let words: Vec<&str> = tokens
         .iter()
@@ -236,7 +236,7 @@ fn is_resolution(word: &str) -> bool {
         || sides.is_some_and(|(a, b)| a.len() > 2 && b.len() > 2 && number(a) && number(b))
 }
 
-/// Whether nothing follows that what stands before may be a quality of.
+/// Returns true if nothing follows that a preceding quality could describe.
 fn ends(after: &[Token]) -> bool {
     let clause = after
         .iter()

@@ -18,7 +18,7 @@ use crate::{
 #[derive(Debug, Clone)]
 pub(super) struct Group {
     items: Vec<Item>,
-    /// How surely they do, up to 1.
+    /// Confidence that they do, up to 1.
     surface: f32,
 }
 
@@ -30,7 +30,7 @@ impl Group {
         }
     }
 
-    /// What is not there: "not slippery", "without grit".
+    /// A denied quality: "not slippery", "without grit".
     pub(super) fn denied(quality: Item) -> Self {
         let denial = if phrase::is_adjective(&quality.text) {
             "not"
@@ -44,7 +44,7 @@ impl Group {
         Self::new(vec![Item::new(denial, Class::Denial), quality], 1.0)
     }
 
-    /// Whether it says how something feels.
+    /// Returns true if the group says how something feels.
     pub(super) fn is_felt(&self) -> bool {
         self.items.iter().any(is_felt)
     }
@@ -56,12 +56,12 @@ impl Group {
     }
 }
 
-/// Whether what follows a word only says more of what stands before it.
+/// Returns true for a word that introduces a modifier of the preceding thing.
 fn adds(item: &Item) -> bool {
     ["with", "in", "by", "from", "without"].contains(&item.text.as_str())
 }
 
-/// Whether an item says how something feels.
+/// Returns true if an item says how something feels.
 pub(super) fn is_felt(item: &Item) -> bool {
     item.class == Class::Touch || phrase::is_quality(&item.text)
 }
@@ -78,7 +78,7 @@ pub(super) fn is_thing(item: &Item) -> bool {
     is_content(item) && item.class != Class::Touch && !is_adjective(item)
 }
 
-/// Whether a word says how something is, by the tables, or by its form if no table holds it: "wet", "riven".
+/// Returns true for an adjective, by the tables or, for a word on no list, by its form: "wet", "riven".
 pub(super) fn is_adjective(item: &Item) -> bool {
     const ENDINGS: &[&str] = &["ed", "en", "ish", "less", "like", "y"];
     let text = item.text.as_str();
@@ -91,7 +91,7 @@ pub(super) fn is_adjective(item: &Item) -> bool {
     }
 }
 
-/// One phrase of groups: their qualities, the things, and what these have.
+/// Joins groups into a phrase: their qualities, the things, then the modifiers of the things.
 pub(super) fn phrase_of(groups: Vec<Group>) -> Vec<String> {
     let named = groups.iter().any(|group| group.head().is_some());
     let groups = said_once(groups);
@@ -161,7 +161,7 @@ fn of_one_face(mut groups: Vec<Group>) -> Vec<Group> {
     groups
 }
 
-/// Whether the one thing of groups is a part that needs its owner's name.
+/// Returns true if the only thing of the groups is a part that needs its owner's name.
 pub(super) fn needs_owner(groups: &[Group]) -> bool {
     let mut things = groups
         .iter()
@@ -205,7 +205,7 @@ pub(super) fn one_thing(groups: Vec<Group>) -> Vec<Group> {
     kept
 }
 
-/// What a material has before what is made of it, as a probability.
+/// Rank advantage of a material over an object made of it, as a probability.
 const MATERIAL: f32 = 0.3;
 
 /// Qualities behind what they are of, and the rest: "iron that is rusty".
@@ -231,7 +231,8 @@ fn divided(items: Vec<Item>) -> [Vec<Item>; 2] {
     [qualities.cloned().collect(), thing.to_vec()]
 }
 
-/// Whether a word before a name says nothing of touch: "pure fleece", "tacky transparent vinyl", "strap plastic".
+/// Returns true if a word before a name says nothing of touch: "pure fleece", "tacky transparent vinyl", "strap
+/// plastic".
 fn is_dull(items: &[Item], n: usize) -> bool {
     let (item, next) = (&items[n], &items[n + 1]);
     if next.class != Class::Name || is_adjective(item) || item.text.ends_with("'s") {

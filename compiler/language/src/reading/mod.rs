@@ -1,4 +1,4 @@
-//! What a prompt names, and what it says about it.
+//! Reading of a prompt: the things that it names, and how it describes their feel.
 //!
 //! A sentence encoder reads the whole sentence: "make me gravel" is near to gravel, and near to making.
 //! So a prompt is read before it is encoded. It is [normalised](normalise()), and a misspelling is corrected. Where tables
@@ -59,8 +59,8 @@ use crate::{
     },
 };
 
-/// What tells two readers apart: the CRC-32 of what is read of the prompts in `training/corpora/evaluation/`, and
-/// of their grammar, which the test `judged::the_version_of_the_reader_follows_what_it_reads` computes.
+/// Version of the reader: the CRC-32 of its readings of the prompts in `training/corpora/evaluation/`, and of their
+/// grammar, which the test `judged::the_version_of_the_reader_follows_what_it_reads` computes.
 pub const VERSION: &str = "34cd677d";
 
 /// Words of a prompt that are read: several times what an encoder reads of them.
@@ -75,29 +75,29 @@ pub struct Reader<T, S> {
     states: S,
 }
 
-/// What was read of a prompt.
+/// The reading of a prompt.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Reading {
     /// The names that it says, as the corpus spells them.
     pub names: Vec<String>,
-    /// What is encoded: names, each as one, and the words that say how something feels.
+    /// Text to encode: names, each as one entry, and the words that say how something feels.
     pub words: Vec<String>,
-    /// What these are together.
+    /// Grammar of these words together.
     pub phrase: Phrase,
-    /// Whether anything is touched in it.
+    /// True if the prompt mentions a touched surface.
     pub contact: bool,
-    /// How sure that is, 0..=1: the least probability with which a word of content is felt, or is not. 1 where tables alone
-    /// say what it is.
+    /// Confidence in the reading, 0..=1: the least probability with which a word of content is felt, or is not. 1 where
+    /// tables alone give the reading.
     pub sure: f32,
-    /// Whether anything that is left names something, or says how it feels.
+    /// True if any remaining word names something, or says how it feels.
     pub says: bool,
     /// Words that were left out because they say nothing of touch.
     pub ignored: Vec<String>,
-    /// Of these, objects that carry the surface, what is denied, and tools.
+    /// Among these, objects that carry the surface, denied words, and tools.
     pub others: Vec<(Role, String)>,
     /// A word that was misspelt.
     pub correction: Option<Correction>,
-    /// What to tell of its numbers: those that are out of range, and those that may be read in two ways.
+    /// Notes to the user on its numbers: those out of range, and those that may be read in two ways.
     pub numbers: Vec<String>,
     /// Two numbers of which only one can hold, the one that is taken last.
     pub conflict: Option<[Grade; 2]>,
@@ -113,7 +113,7 @@ impl Reading {
         self.words.join(" ")
     }
 
-    /// Whether any word of this text is encoded.
+    /// Returns true if any word of this text is encoded.
     #[must_use]
     pub fn holds(&self, text: &str) -> bool {
         let words = || self.words.iter().flat_map(|word| word.split(' '));
@@ -171,7 +171,7 @@ impl<T: WordVectors, S: WordStates> Reader<T, S> {
         self.surface(text, &items, &items)
     }
 
-    /// What the `known` of a text's items name.
+    /// Reads the surface that the `known` items of a text name.
     fn surface(&self, text: Text<'_>, known: &[Item], items: &[Item]) -> Reading {
         let clauses = known.split(|item| item.class == Class::Break);
         let items_of = clauses.map(<[Item]>::to_vec);
@@ -198,14 +198,14 @@ impl<T: WordVectors, S> Reader<T, S> {
         (items.into_iter().map(|item| item.text).collect(), names)
     }
 
-    /// Whether an item is of a list, or English and no code.
+    /// Returns true if an item is on a list, or is English and not a code.
     fn knows(&self, item: &Item) -> bool {
         let has = |kind: fn(&u8) -> bool| item.text.bytes().any(|byte| kind(&byte));
         let code = has(u8::is_ascii_digit) && has(u8::is_ascii_alphabetic);
         item.class != Class::Other || (!code && spelling::is_known(&item.text, &self.table))
     }
 
-    /// Whether every word is English.
+    /// Returns true if every word is English.
     fn knows_all(&self, tokens: &[Token]) -> bool {
         tokens.iter().filter_map(Token::word).all(|word| {
             // Of other letters, only those of micrometres are English.
@@ -219,7 +219,7 @@ impl<T: WordVectors, S> Reader<T, S> {
 struct Text<'a> {
     prompt: Cow<'a, str>,
     tokens: Vec<Token>,
-    /// What was taken out of it.
+    /// Words that were removed from the prompt.
     gone: Vec<String>,
     numbers: Vec<Note>,
     correction: Option<Correction>,

@@ -23,12 +23,12 @@ const OWNED: &[&str] = &[
     "pelt", "rind", "scale", "shell", "skin", "snout", "stem", "tail", "tongue",
 ];
 
-/// Whether a word names a part that needs its owner's name.
+/// Returns true for a part that needs its owner's name.
 pub(super) fn is_owned(word: &str) -> bool {
     is(OWNED, &singular(word))
 }
 
-/// Whether a word names a part where the whole is touched.
+/// Returns true for a part at which the whole is touched.
 pub(super) fn is_face(word: &str) -> bool {
     is(FACES, &singular(word))
 }
@@ -67,7 +67,7 @@ pub(super) fn divide(mut items: Vec<Item>) -> Vec<Item> {
     items
 }
 
-/// Whether a word names a part, which is one by itself or is as the whole is.
+/// Returns true for a part, whether one of its own or one that feels as the whole does.
 pub(super) fn is_part(word: &str) -> bool {
     let part = singular(word);
     is_own_part(&part) || is(WHOLE, &part)

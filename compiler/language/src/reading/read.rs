@@ -1,4 +1,4 @@
-//! Whether tables alone read a text, and what is left of one.
+//! Reading of a text from tables alone, and the words that a reading leaves out.
 
 use super::{
     Reading,
@@ -15,7 +15,7 @@ use crate::{
     words::grade::Grade,
 };
 
-/// Whether the tables alone say what a text is: it has nothing but names, qualities and what joins them.
+/// Returns true if the tables alone can read a text: it has only names, qualities and words that join them.
 pub(super) fn is_bare(items: &[Item]) -> bool {
     let listed = |text: &str| {
         phrase::is_quality(text) || lexicon::is_quality(text) || Grade::of(text).is_some()
@@ -44,7 +44,7 @@ pub(super) fn is_bare(items: &[Item]) -> bool {
 /// Words of a text that is read by word vectors alone.
 pub(super) const FEW: usize = 3;
 
-/// Whether a word is for somebody, who stands in sentences alone.
+/// Returns true for a personal pronoun, which occurs only in sentences.
 pub(super) fn is_person(word: &str) -> bool {
     const PERSONS: &[&str] = &[
         "i", "you", "he", "she", "we", "they", "me", "him", "us", "them", "who",
@@ -52,7 +52,7 @@ pub(super) fn is_person(word: &str) -> bool {
     PERSONS.contains(&word)
 }
 
-/// Whether a text is a question or a statement: no description of an object is.
+/// Returns true for a question or a statement, which a description of an object never is.
 pub(super) fn is_clause(items: &[Item]) -> bool {
     let is = |n: usize, words: &[&str]| {
         items
@@ -84,7 +84,7 @@ pub(super) fn whole(items: &[Item]) -> Vec<String> {
     said.map(|item| item.said.clone()).collect()
 }
 
-/// What is encoded of a text in which nothing is touched: all words of content.
+/// Returns the words to encode of a text in which nothing is touched: all words of content.
 pub(super) fn unread(items: &[Item]) -> Vec<String> {
     let words = |says: fn(&Item) -> bool| -> Vec<String> {
         let said = items

@@ -13,7 +13,7 @@ use crate::{
     phrase,
 };
 
-/// What an item is.
+/// Class of an item.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Class {
     /// A name.
@@ -221,7 +221,7 @@ fn numbered(items: &mut Vec<Item>) {
 /// Words before a number.
 const NUMBER: &[&str] = &["no", "nr", "number", "grade", "size"];
 
-/// Whether a word of no list is an adverb.
+/// Returns true for an adverb on no list.
 pub(super) fn is_adverb(item: &Item) -> bool {
     const ADJECTIVES: &[&str] = &[
         "lovely", "friendly", "lively", "ugly", "early", "likely", "homely", "cuddly", "costly",

@@ -28,9 +28,9 @@ const SURE: usize = 6;
 pub struct Correction {
     /// The word as it was typed.
     pub said: String,
-    /// What it was read as.
+    /// The corrected word.
     pub taken: String,
-    /// Whether it may as well be another word: what it was read as is a guess.
+    /// True if another correction is as likely: the corrected word is a guess.
     pub doubtful: bool,
 }
 
@@ -138,7 +138,7 @@ fn one_word(tokens: &mut [Token], table: &impl WordVectors) -> Option<Correction
     })
 }
 
-/// Whether two words have the same letters.
+/// Returns true if two words are anagrams.
 fn is_swapped(a: &str, b: &str) -> bool {
     let [a, b] = [a, b].map(|word| {
         let mut letters = word.as_bytes().to_vec();
@@ -148,8 +148,8 @@ fn is_swapped(a: &str, b: &str) -> bool {
     a == b
 }
 
-/// Whether a word is on a list of English; if not it is a misspelling, of another language, or somebody's name. What is
-/// not of Latin letters is no misspelling.
+/// Returns true for a word on a list of English; any other is a misspelling, of another language, or a person's name. A
+/// word with letters that are not Latin is not a misspelling.
 pub(super) fn is_known(word: &str, table: &impl WordVectors) -> bool {
     let word = &*without_accents(word);
     let letters = word.chars().all(|c| c.is_ascii_lowercase());

@@ -1,4 +1,4 @@
-//! What the tables know of each word of a text, for the tagger.
+//! Input features of the tagger: the entries of the tables for each word of a text.
 
 use super::WIDTH;
 use crate::{

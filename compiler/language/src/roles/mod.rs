@@ -18,7 +18,7 @@ pub trait WordStates {
 pub const STATE: usize = 384;
 /// Flags of a word.
 pub const WIDTH: usize = 14;
-/// What each flag says of a word.
+/// Meaning of each flag.
 pub const FLAGS: [&str; WIDTH] = [
     "mark",
     "name",
@@ -36,7 +36,7 @@ pub const FLAGS: [&str; WIDTH] = [
     "owner",
 ];
 
-/// What a word does in a text.
+/// Role of a word in a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     /// Nothing that is felt.
@@ -47,7 +47,7 @@ pub enum Role {
     Object,
     /// It says what is not there.
     Denied,
-    /// What is moved over the surface.
+    /// An object that is moved over the surface.
     Tool,
 }
 

@@ -54,7 +54,7 @@ impl Layer {
     }
 }
 
-/// One direction of the GRU: the gates reset, update and new side by side.
+/// A direction of the GRU: the gates reset, update and new side by side.
 struct Direction {
     input: Layer,
     state: Layer,

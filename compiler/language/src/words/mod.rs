@@ -1,4 +1,4 @@
-//! What a text says before any model reads it: its words in one form, and numbers with a meaning.
+//! Text before any model reads it: words in one form, and numbers with a meaning.
 
 pub mod grade;
 mod homoglyphs;

@@ -72,7 +72,7 @@ impl Constant {
         }
     }
 
-    /// Whether no step has asked for the elements yet.
+    /// Returns true while no step has asked for the elements.
     #[cfg(test)]
     pub(crate) fn is_untouched(&self) -> bool {
         self.tensor.get().is_none()

@@ -25,7 +25,7 @@ pub const MAX_OPSET: i64 = 22;
 /// Index of a value of the graph.
 pub(crate) type Slot = usize;
 
-/// One node, ready to run.
+/// A node, ready to run.
 #[derive(Debug)]
 pub(crate) struct Step {
     /// Name of the node, or of its output when it has none.

@@ -26,7 +26,7 @@ enum Message {
     Other,
 }
 
-/// What a field holds.
+/// Content of a field.
 enum Content {
     Message(Message),
     Name,
@@ -34,7 +34,7 @@ enum Content {
 }
 
 impl Message {
-    /// What a field of the message holds; `None` where it takes no more than its bytes.
+    /// Returns the content of a field of the message; `None` where it takes no more than its bytes.
     const fn field(self, tag: u64) -> Option<Content> {
         use Content::{Integers, Name};
         Some(match (self, tag) {
@@ -54,7 +54,7 @@ impl Message {
     }
 }
 
-/// What has been counted.
+/// Counts so far.
 #[derive(Default)]
 struct Counts {
     items: usize,

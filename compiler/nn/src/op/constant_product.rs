@@ -17,9 +17,9 @@ pub(crate) enum Weights {
     /// int8 in two's complement, which the product expands by the formula of `DequantizeLinear`.
     Quantized {
         weights: Bytes,
-        /// One a column.
+        /// Scale per column.
         scale: Vec<f32>,
-        /// One a column.
+        /// Zero point per column.
         zero: Vec<f32>,
     },
 }

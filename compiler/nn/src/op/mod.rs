@@ -96,7 +96,7 @@ impl Types<'_> {
         self.one_of(index, &[I64, I32], "int64 or int32")
     }
 
-    /// Whether an input is given.
+    /// Returns true if an input is given.
     fn is_given(&self, index: usize) -> bool {
         self.0.get(index).copied().flatten().is_some()
     }

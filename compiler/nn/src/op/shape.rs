@@ -94,7 +94,7 @@ impl Operator for Constant {
     }
 }
 
-/// One value, repeated to the shape in input 0.
+/// Repeats a value to the shape in input 0.
 #[derive(Debug)]
 pub(crate) struct ConstantOfShape {
     value: Tensor,

@@ -15,7 +15,7 @@ use asperity_nn::{
 };
 use prost::Message as _;
 
-/// One node with these inputs; `None` is left out.
+/// Runs a single node with these inputs; `None` is left out.
 fn apply(op_type: &str, inputs: &[Option<Tensor>], attributes: &[(&str, Attribute)]) -> Tensor {
     match try_apply(op_type, inputs, attributes) {
         Ok(tensor) => tensor,
@@ -29,7 +29,7 @@ fn apply_to(op_type: &str, inputs: &[Tensor]) -> Tensor {
     apply(op_type, &inputs, &[])
 }
 
-/// What the error says when a node is run.
+/// Returns the error of running a node.
 fn refusal(op_type: &str, inputs: &[Tensor], attributes: &[(&str, Attribute)]) -> String {
     let inputs: Vec<_> = inputs.iter().cloned().map(Some).collect();
     match try_apply(op_type, &inputs, attributes) {

@@ -10,7 +10,7 @@ use crate::{
 /// Which thread lies on top where thread `i` along and `j` across meet.
 type Weave = fn(i32, i32) -> bool;
 
-/// One over, one under.
+/// Plain weave: one over, one under.
 pub(super) fn plain(look: &Appearance, size: usize) -> Surface {
     woven(look, size, look.even(44.0), 0.5, |i, j| (i + j) & 1 == 0)
 }

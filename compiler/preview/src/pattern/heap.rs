@@ -7,7 +7,7 @@ use crate::{
     surface::{Surface, Texel},
 };
 
-/// What the things of a heap look like.
+/// Shape of the objects of a heap.
 struct Thing {
     /// Width over length.
     slender: f32,

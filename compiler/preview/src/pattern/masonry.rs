@@ -1,4 +1,4 @@
-//! What is built of stone: walls, floors, roads.
+//! Stonework: walls, floors, roads.
 
 use crate::{
     appearance::Appearance,

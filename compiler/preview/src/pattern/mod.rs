@@ -20,7 +20,7 @@ use serde::Deserialize;
 /// Names the patterns and calls their synthesis.
 macro_rules! patterns {
     ($($name:ident => $module:ident::$function:ident,)*) => {
-        /// How a material is drawn; in the table of materials by the name in kebab case.
+        /// Pattern of a material; in the table of materials by the name in kebab case.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
         #[serde(rename_all = "kebab-case")]
         pub(crate) enum Pattern { $(#[doc = concat!("See `", stringify!($module), "::", stringify!($function), "`.")] $name,)* }

@@ -39,7 +39,7 @@ pub(super) fn path(
     way
 }
 
-/// What strokes have in common.
+/// Parameters shared by all strokes of a pattern.
 struct Strokes {
     count: f32,
     length: f32,
@@ -47,11 +47,11 @@ struct Strokes {
     taper: f32,
     /// Way of the strokes, turns; 0 to the right, 0.25 down.
     turn: f32,
-    /// How far strokes stray from it by chance, turns.
+    /// Random deviation from it, turns.
     stray: f32,
-    /// How far the flow bends it, turns, and cells of the flow.
+    /// Deflection by the flow, turns, and cells of the flow.
     flow: (f32, i32),
-    /// How much a stroke bends, turns.
+    /// Largest bend of a stroke, turns.
     bend: f32,
     /// Brightness at the root.
     root: f32,

@@ -231,12 +231,12 @@ struct Chip {
     way: (f32, f32),
     level: f32,
     tilt: f32,
-    /// Of its ragged ends and its grain, turns.
+    /// Phase of its ragged ends and its grain, turns.
     phase: f32,
 }
 
 impl Chip {
-    /// What of it is so far from its middle.
+    /// Returns the texel at an offset from the middle, patches; `None` outside the chip.
     fn at(&self, dx: f32, dy: f32) -> Option<Texel> {
         let (c, s) = self.way;
         let (a, b) = (

@@ -40,7 +40,7 @@ const CHANCE: f64 = 0.01;
 /// Part of the samples in runs above which a channel is coarse.
 const COARSE: f64 = 0.1;
 
-/// What was found, and the bad stretches in samples.
+/// Checks the amplitudes of a channel; returns the findings and the bad stretches, in samples.
 pub(super) fn check(channel: &Channel) -> (Vec<Finding>, Vec<Range<u64>>) {
     let mut findings = Vec::new();
     let mut bad = Vec::new();
@@ -181,7 +181,7 @@ fn force_spikes(channel: &Channel) -> Vec<usize> {
         .collect()
 }
 
-/// Whether a sensor that repeats itself as often as around this run makes one as long by chance.
+/// Returns true if a run this long occurs by chance at the rate of repeated samples around it.
 fn is_chance(channel: &Channel, run: &Run) -> bool {
     let samples = &channel.samples;
     let (start, end) = (run.start as usize, (run.start + run.length) as usize);
@@ -226,9 +226,8 @@ fn clipped(channel: &Channel) -> Vec<Range<u64>> {
     all
 }
 
-/// Whether an extreme holds more samples than the values just inside it. That of noise over a few steps
-/// of a converter does not, nor that of a sine, nor that of a period that repeats itself to the bit. That
-/// of a signal that is cut off does.
+/// Returns true if an extreme holds more samples than the values just inside it: that of a clipped signal does, that of
+/// noise over a few steps of a converter, of a sine or of a bit-exact periodic signal does not.
 fn stands_out(samples: &[f32], extreme: f32) -> bool {
     // Distances from the extreme, of the samples on its side.
     let mut inside: Vec<f32> = samples

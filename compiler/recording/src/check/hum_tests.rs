@@ -29,7 +29,7 @@ fn every_line_is_taken_away_and_what_lies_between_is_kept() {
     assert_eq!(rest[1000..], signal[1000..]);
 }
 
-/// What is said of a line of a size on noise, in the air but for some samples.
+/// Findings for a hum of amplitude `size` on noise, in the air except at the `contact` samples.
 fn told(quantity: Quantity, hz: f64, size: f64, count: usize, contact: &[usize]) -> Vec<String> {
     let noise = white(8, count, 12);
     let values: Vec<f64> = noise

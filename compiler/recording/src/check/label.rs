@@ -10,18 +10,18 @@ use crate::{
 
 /// Shortest end of a channel at one value that is a sensor that died, s and as a part of the channel.
 const LEAST_END: (f64, f64) = (0.5, 0.04);
-/// How many times longer it is than the channel ever rests otherwise.
+/// Least ratio of that end to the longest other run of the channel.
 const LONGER: u64 = 5;
 /// Part of the recording at whose end a hand may rest.
 const REST: f64 = 0.25;
 /// Fewest samples that tell a counter.
 const LEAST_COUNTED: usize = 100;
-/// How far a counter may be from a straight line, as a part of its range: packets have steps.
+/// Tolerance of a counter's straight line, as a fraction of its range: packets have steps.
 const STRAIGHT: f64 = 0.02;
-/// How near the slope of a counter is to that of a clock in one of its units.
+/// Relative tolerance between the slope of a counter and that of a clock in one of its units.
 const SLOPE: f64 = 0.01;
 
-/// Whether each channel holds one value, and what is to be said of labels.
+/// Finds the dead channels, which hold one value throughout, and the faults in labels.
 pub(super) fn check(recording: &Recording) -> (Vec<bool>, Vec<Finding>) {
     let dead: Vec<bool> = recording.channels.iter().map(is_dead).collect();
     let mut findings = Vec::new();
@@ -121,7 +121,7 @@ fn severity(recording: &Recording, dead: &[bool], channel: &Channel) -> Severity
     }
 }
 
-/// How bad it is that a channel holds one value from some time to its end, if it does.
+/// Severity of a channel that holds one value from some time to its end; `None` if it does not.
 fn died(recording: &Recording, dead: &[bool], channel: &Channel) -> Option<Severity> {
     let long = |channel: &Channel| {
         let numbers = &channel.numbers;
@@ -154,7 +154,7 @@ fn is_copy(known: &Channel, channel: &Channel) -> bool {
         && known.samples == channel.samples
 }
 
-/// What a channel counts that rises like a clock or a count of rows.
+/// Unit of a channel that counts like a clock, or `rows` for a row counter.
 fn counter(channel: &Channel, described: &description::Channel) -> Option<&'static str> {
     let samples = &channel.samples;
     let (first, last) = (f64::from(*samples.first()?), f64::from(*samples.last()?));
@@ -188,7 +188,7 @@ fn counter(channel: &Channel, described: &description::Channel) -> Option<&'stat
     }
 }
 
-/// What the name of a column says otherwise than the description.
+/// Finds a contradiction between the name of a column and its description.
 fn contradiction(described: &description::Channel) -> Option<(Kind, String)> {
     let Column::Name(name) = &described.column else {
         return None;

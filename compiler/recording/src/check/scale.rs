@@ -21,11 +21,11 @@ const FACTORS: [f64; 7] = [
     9806.65,
     1.0 / 9806.65,
 ];
-/// How far from a factor a ratio may lie.
+/// Tolerances of the ratio to a factor, as factors.
 const GRAVITY_TOLERANCE: f64 = 1.25;
 const MOTION_TOLERANCE: f64 = 1.8;
 const MASS_TOLERANCE: f64 = 2.6;
-/// How near a factor must be to that between two units to be a wrong unit, not a wrong range.
+/// Tolerance of the ratio between two units: within it the unit is wrong, beyond it the range.
 const UNIT_TOLERANCE: f64 = 1.08;
 /// Least steady acceleration that is gravity, as a part of it: less is the bias of a sensor that shows none.
 const LEAST_GRAVITY: f64 = 0.3;

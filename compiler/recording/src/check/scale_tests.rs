@@ -154,7 +154,7 @@ fn a_wrong_unit_is_told_with_its_factor_and_the_file() {
     assert_eq!(finding(&recording, Quantity::Speed, 2.0, "x").file, "");
 }
 
-/// What is said of the units of a speed and a load of a hand, without gravity.
+/// Unit faults for a hand's speed and load, without gravity: the channel, and true if it is too large.
 fn told(speed_mm_s: f64, load_n: f64, dead: [bool; 3]) -> Vec<(String, bool)> {
     let channels = vec![
         test_recordings::channel(Quantity::Acceleration, Axis::Z, 1000.0, &vec![0.0; 3000]),

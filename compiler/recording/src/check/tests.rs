@@ -1,4 +1,4 @@
-//! What is said of clocks, of gravity and of contact.
+//! Findings about clocks, gravity and contact.
 
 use super::*;
 use crate::{reader::FileClock, test_recordings};

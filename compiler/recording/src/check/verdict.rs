@@ -1,9 +1,9 @@
-//! What a check says.
+//! Results of a check.
 
 use serde::Serialize;
 use std::fmt;
 
-/// How bad a finding is.
+/// Severity of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
@@ -17,7 +17,7 @@ pub enum Severity {
     Fault,
 }
 
-/// What a finding is about.
+/// Subject of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
@@ -31,7 +31,7 @@ pub enum Kind {
     Drift,
     /// A file that comes late.
     Delay,
-    /// What an accelerometer shows at rest.
+    /// Gravity and bias of an accelerometer at rest.
     Gravity,
     /// Touching or not.
     Contact,
@@ -43,26 +43,26 @@ pub enum Kind {
     Short,
     /// A file that is cut, or that does not say how long it is.
     File,
-    /// One value throughout.
+    /// A constant value throughout.
     Dead,
     /// A channel that holds what another one does, or a clock.
     Mislabelled,
 }
 
-/// One thing that a check found.
+/// A finding of a check.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Finding {
     /// File, empty where it is about all.
     pub file: String,
     /// Channel, empty where it is about the file.
     pub channel: String,
-    /// What it is about.
+    /// Its subject.
     pub kind: Kind,
-    /// How bad it is.
+    /// Its severity.
     pub severity: Severity,
-    /// What was found.
+    /// Description of the finding.
     pub what: String,
-    /// What to do about it.
+    /// Step for the user.
     pub remedy: String,
 }
 
@@ -121,7 +121,7 @@ impl fmt::Display for Finding {
 /// All that a check found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Checked {
-    /// What was found, the worst first.
+    /// The findings, the worst first.
     pub findings: Vec<Finding>,
     /// By how much each file comes late, s; it was corrected.
     pub late_s: Vec<(String, f64)>,

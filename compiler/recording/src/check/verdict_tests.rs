@@ -1,4 +1,4 @@
-//! How findings read, and which of them count for a channel.
+//! Wording of findings, and those that count for a channel.
 
 use super::*;
 
@@ -19,7 +19,7 @@ fn checked(findings: Vec<Finding>) -> Checked {
     }
 }
 
-/// What is said of a x, a y and b x.
+/// Verdicts on the channels a x, a y and b x.
 fn verdicts(findings: Vec<Finding>) -> Vec<String> {
     let text = checked(findings).to_string();
     let lines = text.lines().skip(1).take(3);

@@ -1,4 +1,4 @@
-//! What the name of a column says: quantity, axis, unit, or that it is a clock.
+//! Parsing of a column's name: quantity, axis, unit, or a clock.
 //!
 //! `Time (s)`, `Acceleration x (m/s^2)`, `Ax(g)`, `acc_x [g]`, `force_z_mN`, `t_us`: the unit stands in
 //! brackets, after a separator, or in words. A name that says nothing means nothing here.
@@ -37,7 +37,7 @@ const SPELLINGS: [(&str, &[&str]); 18] = [
     ("m/s", &["m/s", "m_s", "mps"]),
 ];
 
-/// What a name says.
+/// Meaning of a column's name.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Meaning {
     /// Time, in a unit of a description if the name has one.
@@ -83,7 +83,7 @@ pub(crate) fn meaning(name: &str) -> Meaning {
     ends.into_iter().find(told).unwrap_or(Meaning::Unknown)
 }
 
-/// Whether a field may stand in a row of units.
+/// Returns true if a field may stand in a row of units.
 pub(crate) fn is_unit(field: &str) -> bool {
     let field = field.trim_matches(['(', ')', '[', ']']);
     symbol(field).is_some() || OTHER_UNITS.contains(&field)

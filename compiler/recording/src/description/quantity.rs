@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// What a channel measures.
+/// A measured quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Quantity {
@@ -36,7 +36,7 @@ impl fmt::Display for Quantity {
 pub struct Unit {
     /// As a description writes it.
     pub name: &'static str,
-    /// What it is a unit of.
+    /// The quantity that it measures.
     pub quantity: Quantity,
     /// SI units in one of it.
     pub to_si: f64,

@@ -57,7 +57,7 @@ struct RawChannel {
     range: Option<[f64; 2]>,
 }
 
-/// Whether a folder has no description, or an empty one.
+/// Returns true if a folder has no description, or an empty one.
 #[must_use]
 pub fn is_absent(folder: &Path) -> bool {
     let path = folder.join(FILE_NAME);

@@ -1,4 +1,4 @@
-//! What a description says.
+//! Schema of a description.
 
 use super::quantity::{Quantity, Unit};
 use serde::Deserialize;
@@ -9,7 +9,7 @@ use std::fmt;
 pub struct Description {
     /// Name of the material.
     pub name: String,
-    /// What it was recorded with.
+    /// The recording device.
     pub device: Option<String>,
     /// The tool.
     pub tool: Tool,
@@ -21,13 +21,13 @@ pub struct Description {
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tool {
-    /// What it is.
+    /// Name of the tool.
     pub name: Option<String>,
     /// Its moving mass without the hand, kg.
     pub mass_kg: Option<f64>,
 }
 
-/// One file: channels that share rows.
+/// A sensor file: channels that share rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SensorFile {
     /// Name within the folder.
@@ -48,12 +48,12 @@ pub struct SensorFile {
     pub channels: Vec<Channel>,
 }
 
-/// One column of a file.
+/// A column of a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Channel {
     /// Which column.
     pub column: Column,
-    /// What it measures.
+    /// The measured quantity.
     pub quantity: Quantity,
     /// Along which axis.
     pub axis: Axis,

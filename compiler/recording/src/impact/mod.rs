@@ -29,7 +29,7 @@ pub const TAP_SAMPLES: usize = 100;
 /// Slowest and fastest impact, m/s.
 const SPEEDS_M_S: (f64, f64) = (0.02, 2.0);
 
-/// One impact.
+/// An impact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Impact {
     /// When, s.
@@ -147,7 +147,7 @@ const IN_AIR: usize = 40;
 /// Least load of a landing, N, and the same as a multiple of the load's noise in the air.
 const LEAST: (f64, f64) = (0.06, 8.0);
 
-/// Whether the load before it is smoothed shows a contact.
+/// Per sample: true if the unsmoothed load shows a contact.
 pub(crate) fn touches(timeline: &Timeline) -> Vec<bool> {
     let load = &timeline.unsmoothed_load_n;
     let in_air = || {

@@ -1,4 +1,4 @@
-//! How fast the tool lands: by its height, or by its acceleration along z.
+//! Landing speed of the tool: from its height, or from its acceleration along z.
 //!
 //! The height's slope is steepest just before the landing. Without a height, the acceleration is
 //! integrated from one rest to the next: the tip rests while it presses on the surface, before it is

@@ -49,13 +49,13 @@ pub(super) struct Gap {
     pub row: u64,
     /// Its line.
     pub line: u64,
-    /// How many.
+    /// Number of missing rows.
     pub missing: u64,
     /// Time from the row before to this one, s.
     pub step_s: f64,
 }
 
-/// What was seen of a clock.
+/// Fit of a clock to its stamps.
 #[derive(Debug, Clone)]
 pub(super) struct Seen {
     /// The steady clock that fits best, over rows and missing rows.
@@ -102,7 +102,7 @@ pub(crate) fn period(path: &Path, column: usize) -> Option<f64> {
     Some(steps.period)
 }
 
-/// What the steps of a clock are like, s.
+/// Step statistics of a clock, s.
 #[derive(Debug, Clone, Copy)]
 struct Steps {
     /// Time from row to row.

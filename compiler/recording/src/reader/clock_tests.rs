@@ -3,7 +3,7 @@
 use super::*;
 use crate::test_recordings::near;
 
-/// What is seen of these stamps.
+/// Fit of the clock to these stamps.
 pub(super) fn seen(stamps: impl IntoIterator<Item = f64>) -> Result<Seen, String> {
     let mut follower = Follower::default();
     for (line, at_s) in (2..).zip(stamps) {

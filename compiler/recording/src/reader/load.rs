@@ -26,7 +26,7 @@ const USUAL_HZ: f64 = 1000.0;
 pub struct Recording {
     /// The folder.
     pub folder: PathBuf,
-    /// What it says of itself.
+    /// Its description.
     pub description: Description,
     /// Its channels.
     pub channels: Vec<Channel>,
@@ -34,7 +34,7 @@ pub struct Recording {
     pub clocks: Vec<FileClock>,
 }
 
-/// What was seen of the clock of a file.
+/// Statistics of a file's clock.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FileClock {
     /// The file.
@@ -53,14 +53,14 @@ pub struct FileClock {
     pub gap_s: f64,
     /// Rows.
     pub rows: u64,
-    /// Whether not all of them are kept.
+    /// True if some rows were dropped.
     pub shortened: bool,
-    /// What is wrong with the file, though it can be read.
+    /// Faults of the file that do not prevent reading it.
     pub remarks: Vec<Remark>,
 }
 
 impl FileClock {
-    /// How much faster the clock is than the stated rate, parts per million.
+    /// Excess of the clock over the stated rate, parts per million.
     #[must_use]
     pub fn drift_ppm(&self) -> Option<f64> {
         Some(1e6 * (self.clock_hz? / self.stated_hz? - 1.0))

@@ -18,31 +18,31 @@ use crate::{
 };
 use std::path::Path;
 
-/// What a file says of itself before its first row.
+/// The header of a file: all that precedes its first row.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Header {
     /// Names of the columns; numbers from 0 where the file has no names.
     pub columns: Vec<String>,
     /// Line of the header, from 1; 0 where the file has none.
     pub line: u64,
-    /// What a row of units says of each column; none where there is no such row.
+    /// Entries of the row of units, per column; empty where there is no such row.
     pub units: Vec<String>,
-    /// What rows above the header say of each column; none where there are none.
+    /// Entries of the rows above the header, per column; empty where there are none.
     pub groups: Vec<String>,
-    /// What the first row holds in columns of text; empty for the others.
+    /// Entries of the first row in columns of text; empty for the others.
     pub texts: Vec<String>,
-    /// Whether the file itself names them.
+    /// True if the file itself names the columns.
     pub named: bool,
     /// Rows a second, if the file says so.
     pub rate_hz: Option<f64>,
-    /// Whether no value can lie outside ±1, as in a WAV of integers.
+    /// True if no value can lie outside ±1, as in a WAV of integers.
     pub full_scale: bool,
-    /// What is wrong with the file, though it can be read.
+    /// Faults of the file that do not prevent reading it.
     pub remarks: Vec<Remark>,
 }
 
 impl Header {
-    /// What the file says of a column: by its name, the unit below it, and the group above it.
+    /// Infers the meaning of a column from its name, the unit below it, and the group above it.
     pub(crate) fn meaning(&self, column: usize) -> Meaning {
         let name = &self.columns[column];
         let of = |texts: &[String]| texts.get(column).cloned().unwrap_or_default();
@@ -71,12 +71,12 @@ impl Header {
     }
 }
 
-/// What is wrong with a file that can be read all the same.
+/// A fault of a file that does not prevent reading it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Remark {
     /// The problem.
     pub what: String,
-    /// What to do about it.
+    /// Step for the user.
     pub remedy: &'static str,
 }
 
@@ -105,7 +105,7 @@ fn format(path: &Path) -> Result<Format, RecordingError> {
     }
 }
 
-/// Whether a file's name says that it is of a known kind.
+/// Returns true if a file's extension is that of a known kind.
 pub(crate) fn is_known(path: &Path) -> bool {
     format(path).is_ok()
 }

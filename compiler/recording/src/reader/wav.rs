@@ -18,7 +18,7 @@ use std::{
 const UNKNOWN: u64 = 0x7fff_0000;
 /// Least and largest length of a format, bytes.
 const FORMAT: (u64, u64) = (16, 128);
-/// What Windows calls the formats that are not read.
+/// Names of the format tags that are not read.
 const OTHERS: [(u16, &str); 5] = [
     (2, "ADPCM"),
     (6, "A-law"),
@@ -27,7 +27,7 @@ const OTHERS: [(u16, &str); 5] = [
     (0x55, "MP3"),
 ];
 
-/// What the header of a WAV states.
+/// Parameters in the header of a WAV.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wav {
     /// Values in a row.
@@ -38,7 +38,7 @@ pub struct Wav {
     pub bytes: usize,
     /// Bits of a value that count.
     pub bits: u16,
-    /// Whether values are floats.
+    /// True if values are floats.
     pub is_float: bool,
     /// Where the values begin in the file.
     pub begin: u64,
@@ -72,7 +72,7 @@ impl Wav {
     }
 }
 
-/// What was found of a header.
+/// Outcome of parsing a header.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Found {
     /// All of it.
@@ -288,7 +288,7 @@ fn open(path: &Path) -> Result<(BufReader<File>, Wav, u64, Vec<Remark>), Recordi
     Ok((file, wav, bytes, remarks))
 }
 
-/// Whether whole chunks, or nothing, fill a file from a place on.
+/// Returns true if whole chunks, or nothing, fill a file from an offset to its end.
 fn is_chunks(file: &mut (impl Read + Seek), mut at: u64, end: u64) -> io::Result<bool> {
     while at + 8 <= end {
         let mut head = [0; 8];

@@ -61,8 +61,8 @@ pub(super) fn find(timeline: &Timeline) -> Vec<f64> {
         .collect()
 }
 
-/// Whether the tool is away from the surface around a sample. The height tells that; without it, the
-/// force must show nothing at all.
+/// Per sample: true if the tool is away from the surface around it, by the height; without a height, the force must
+/// show no contact at all.
 fn away(timeline: &Timeline) -> Vec<bool> {
     let is_near: Vec<bool> = match &timeline.height_m {
         Some(height_m) => {

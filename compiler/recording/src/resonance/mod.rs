@@ -36,7 +36,7 @@ const SAME: f64 = 0.04;
 /// An axis that rings less than this part of another one only hears it.
 const HEARD: f64 = 0.1;
 
-/// What taps in free air say of the tool and its sensor.
+/// Resonances of the tool and its sensor, from taps in free air.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct FreeAir {
     /// Taps on the tool in free air.

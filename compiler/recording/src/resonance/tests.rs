@@ -1,4 +1,4 @@
-//! What taps must share, and the parts of a fit.
+//! Agreement required between taps, and the parts of a fit.
 
 use super::*;
 use crate::test_recordings::near;

@@ -49,7 +49,7 @@ pub struct Segment {
     pub speed_mm_s: f64,
     /// Mean load, N.
     pub force_n: f64,
-    /// Whether speed and load are steady; else their means are those under the window.
+    /// True if speed and load are steady; else their means are those under the window.
     pub is_steady: bool,
     /// Autocorrelation of the vibration at lags 0..=[`LAGS`], (m/s²)².
     pub lags: Vec<f64>,
@@ -59,7 +59,7 @@ pub struct Segment {
     pub statistic: f64,
 }
 
-/// What the vibration of a recording is made of.
+/// Stretches of the vibration of a recording.
 #[derive(Debug, Clone, Default)]
 pub struct Segments {
     /// The segments.

@@ -2,7 +2,7 @@
 
 use crate::timeline::Timeline;
 
-/// How long a stretch may be, and how much speed and load may change in it.
+/// Bounds on the length of a stretch and on the change of speed and load in it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bounds {
     /// Shortest and longest stretch, samples.
@@ -19,8 +19,8 @@ pub(super) const STEADY: Bounds = Bounds {
     speed: (0.15, 5.0),
     load: (0.15, 0.08),
 };
-/// One in which speed and load change. Under its window the standard deviation of a speed that changes
-/// evenly is 0.28 of the fraction, so that a power of v² is found 0.2 dB too high at most.
+/// A stretch in which speed and load change. Under its window the standard deviation of a speed that changes evenly is
+/// 0.28 of the fraction, so a power of v² comes out at most 0.2 dB too high.
 pub(super) const CHANGING: Bounds = Bounds {
     lengths: (100, 160),
     speed: (0.6, 5.0),

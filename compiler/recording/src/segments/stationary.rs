@@ -1,4 +1,4 @@
-//! Whether the energy of a stretch is what its speed and load say: a knock or a landing is no texture.
+//! Stationarity test of a stretch against its speed and load: a knock or a landing is no texture.
 
 use super::Segment;
 use crate::{least_squares::solve, signal::quantile::mean, timeline::Timeline};
@@ -16,7 +16,7 @@ const OFFSETS: [f64; 2] = [3.0, 0.03];
 /// Ridge of the regression, samples: where all segments lie at one place, the exponents stay small.
 const RIDGE: f64 = 300.0;
 
-/// How the level of a recording follows speed and load: a power law, by least squares over its segments.
+/// Power law of a recording's level against speed and load, by least squares over its segments.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Law {
     /// Exponents of speed and load.
@@ -24,7 +24,7 @@ pub(super) struct Law {
 }
 
 impl Law {
-    /// Of segments, each by its length.
+    /// Fits the law to segments, weighted by their lengths.
     pub(super) fn of(segments: &[Segment]) -> Self {
         let rows = || {
             segments.iter().filter(|s| s.lags[0] > 0.0).map(|s| {

@@ -32,7 +32,7 @@ pub fn low_pass(signal: &[f64], cut_off: f64, half: usize) -> Vec<f64> {
         .collect()
 }
 
-/// What a low-pass takes away.
+/// Subtracts the low-passed signal.
 #[must_use]
 pub fn high_pass(signal: &[f64], cut_off: f64, half: usize) -> Vec<f64> {
     let low = low_pass(signal, cut_off, half);

@@ -3,7 +3,7 @@
 use super::take::{Column, Format, Layout, Random, Take};
 use std::fs;
 
-/// What must be said: of which file, of which channels, with which words.
+/// Expected finding: its file, its channels and its words.
 pub(super) struct Expected {
     pub(super) file: &'static str,
     pub(super) channels: Vec<String>,
@@ -418,7 +418,7 @@ pub(super) const KINDS: [(&str, &[Layout], Make); 44] = {
     ]
 };
 
-/// One clock is written in another unit than its description says.
+/// Writes a clock in another unit than its description states.
 fn clock(random: &mut Random, take: &mut Take, unit: &'static str, written: f64) -> Expected {
     let file = random.below(take.files.len());
     let file = &mut take.files[file];

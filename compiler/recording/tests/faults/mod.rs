@@ -30,7 +30,7 @@ fn said(folder: &Path) -> Vec<String> {
     }
 }
 
-/// Whether every channel, or the file, is named with all words.
+/// Returns true if every channel, or the file, is named with all words.
 fn is_named(said: &[String], expected: &Expected) -> bool {
     let has = |channel: &str| {
         said.iter().any(|one| {

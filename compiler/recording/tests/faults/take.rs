@@ -29,14 +29,14 @@ impl Random {
         all[self.below(all.len())]
     }
 
-    /// Of variance 1.
+    /// Noise of variance 1.
     pub(super) fn noise(&mut self) -> f64 {
         let sum: f64 = (0..6).map(|_| self.unit()).sum();
         (sum - 3.0) * std::f64::consts::SQRT_2
     }
 }
 
-/// How quantities are spread over files.
+/// Distribution of quantities over files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Layout {
     /// `log.csv`.
@@ -57,7 +57,7 @@ pub(super) enum Format {
     Npy,
 }
 
-/// How the columns of CSVs are named.
+/// Naming style of CSV columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Style {
     /// `t`, `ax`.
@@ -68,7 +68,7 @@ pub(super) enum Style {
     Suffix,
 }
 
-/// One channel: SI values, and how they are written and described.
+/// A channel: SI values, and the form in which they are written and described.
 #[derive(Debug, Clone)]
 pub(super) struct Column {
     pub(super) quantity: &'static str,
@@ -99,7 +99,7 @@ impl Column {
     }
 }
 
-/// One file of a recording.
+/// A file of a recording.
 #[derive(Debug, Clone)]
 pub(super) struct File {
     pub(super) name: &'static str,
@@ -110,7 +110,7 @@ pub(super) struct File {
     /// The unit of the clock in the description, and stamps written for one second.
     pub(super) clock_unit: &'static str,
     pub(super) clock_written: f64,
-    /// Whether the description names the clock.
+    /// True if the description names the clock.
     pub(super) uses_clock: bool,
     pub(super) stated_hz: Option<f64>,
     /// Added to the time of a file without a clock, s.
@@ -125,18 +125,18 @@ pub(super) struct File {
     pub(super) decimal_comma: bool,
     /// A chunk of odd length before the values of a WAV.
     pub(super) has_chunk: bool,
-    /// How a stamp is written.
+    /// Formats a stamp.
     pub(super) stamp: fn(f64) -> String,
 }
 
-/// What is done to a folder.
+/// A change to a folder.
 type Change = Box<dyn FnOnce(&Path)>;
 
 /// A recording.
 pub(super) struct Take {
     pub(super) layout: Layout,
     pub(super) files: Vec<File>,
-    /// What is done to the folder once it is written.
+    /// Changes to the folder once it is written.
     pub(super) after: Vec<Change>,
 }
 
@@ -304,7 +304,7 @@ impl File {
 /// m/s² of full scale of a WAV of integers.
 const FULL_SCALE: f64 = 160.0;
 
-/// What a hand does, and what its sensors feel at a time.
+/// Motion of a hand, and the signals of its sensors at a time.
 struct Hand {
     length_m: f64,
     stroke_hz: f64,

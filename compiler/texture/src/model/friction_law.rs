@@ -1,4 +1,4 @@
-//! How friction depends on speed: factors of μ, as an asset carries them.
+//! Friction law: factors of μ over speed, as an asset carries them.
 
 use asperity_formats::limits::{MAX_LAW_POINTS, MAX_MU, MIN_LAW_POINTS};
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! Whether triangles tile the rectangle of the grid.
+//! Validation that the triangles tile the rectangle of the grid.
 //!
 //! The runtime looks up the triangle around a speed and a force, so every point needs one, and none may overlap
 //! another.
@@ -66,17 +66,17 @@ pub enum MeshError {
     Overlap {
         /// Index of the later triangle.
         triangle: usize,
-        /// One end of the edge.
+        /// First vertex of the edge.
         from: usize,
-        /// The other end.
+        /// Second vertex of the edge.
         to: usize,
     },
     /// An edge inside the rectangle has a triangle on one side only.
     #[error("the grid has a hole at the edge of vertices {from} and {to}")]
     Hole {
-        /// One end of the edge.
+        /// First vertex of the edge.
         from: usize,
-        /// The other end.
+        /// Second vertex of the edge.
         to: usize,
     },
     /// The areas do not add up to the rectangle's.

@@ -68,7 +68,7 @@ pub struct Mixture {
 #[derive(Debug, Clone)]
 pub struct Field<'a> {
     grid: &'a ModelGrid,
-    /// One entry for each vertex.
+    /// Cosines of the line spectral frequencies, per vertex.
     cosines: Vec<Rc<Cosines>>,
     corner: (f64, f64),
 }
@@ -163,8 +163,8 @@ impl<'a> Field<'a> {
             })
     }
 
-    /// Whether a query lies between the least and the largest speed and force of a triangle. Where
-    /// it does not, one of its weights is negative.
+    /// Returns true if a query lies within the bounding box of a triangle. Outside it, a barycentric weight is
+    /// negative.
     fn may_hold(&self, triangle: &[usize; 3], speed: f64, force: f64) -> bool {
         let between = |[a, b, c]: [f64; 3], x: f64| a.min(b).min(c) <= x && x <= a.max(b).max(c);
         let corners = triangle.map(|v| &self.grid.vertices[v]);

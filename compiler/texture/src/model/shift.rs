@@ -33,7 +33,7 @@ const TAP_SHARE: f64 = 0.95;
 /// Corrections of a tap's time, since a cut end moves the centroid.
 const CORRECTIONS: usize = 6;
 
-/// How far the attributes of a texture move after it was decoded; 0 leaves one as it is.
+/// Changes of a texture's attributes after decoding; 0 leaves an attribute unchanged.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Shift {
@@ -63,7 +63,7 @@ impl Shift {
         }
     }
 
-    /// Whether nothing moves.
+    /// Returns true if no attribute changes.
     #[must_use]
     pub fn is_none(&self) -> bool {
         self == &Self::default()
@@ -104,8 +104,8 @@ pub fn middle(first: &Scales, second: &Scales) -> Scales {
     std::array::from_fn(|k| Some(0.5 * (first[k]? + second[k]?)))
 }
 
-/// How far a texture is to move to what is wanted; one that it does not define, or of which nothing
-/// is wanted, stays.
+/// Returns the shift from a texture's scales to the wanted ones; 0 for an attribute that the texture does not define,
+/// or that has no wanted value.
 #[must_use]
 pub fn to(wanted: &Scales, now: &Attributes) -> Shift {
     let now = scales(now);

@@ -52,7 +52,7 @@ pub enum Numerator {
     Lsf,
 }
 
-/// Whether a vertex was measured or closes the grid at its border.
+/// Kind of a vertex: measured, or closing the grid at its border.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum VertexKind {
@@ -62,7 +62,7 @@ pub enum VertexKind {
     Edge,
 }
 
-/// One vertex: power spectrum `(gain·σ)²·|B|²/|A|²`.
+/// A vertex: power spectrum `(gain·σ)²·|B|²/|A|²`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GridVertex {
     /// Tangential speed, mm/s, ≥ 0.
@@ -103,11 +103,11 @@ pub struct TapTrace {
 /// Coulomb friction, or friction that depends on speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Friction {
-    /// Coefficient of kinetic friction, ≥ 0; with a law, what its factors multiply.
+    /// Coefficient of kinetic friction, ≥ 0; with a law, the base that its factors multiply.
     pub mu: f64,
-    /// What μ was interpolated from.
+    /// Anchors from which μ was interpolated.
     pub anchors: Vec<FrictionAnchor>,
-    /// How μ depends on speed, if it does.
+    /// Law of μ against speed, if any.
     pub law: Option<FrictionLaw>,
 }
 
@@ -171,7 +171,7 @@ pub struct Gains {
 /// Where a texture comes from; written into the asset, never read by the runtime.
 #[derive(Debug, Clone, PartialEq, Serialize, Default)]
 pub struct Provenance {
-    /// What made it, e.g. `asperity 0.1.0 import hatt`.
+    /// Generator of the texture, e.g. `asperity 0.1.0 import hatt`.
     pub generator: String,
     /// File or corpus entry it was made from; no folder.
     pub source: String,
@@ -183,11 +183,11 @@ pub struct Provenance {
     pub seed: u64,
     /// Requested fidelity: `full`, `auto` or an order.
     pub fidelity: String,
-    /// Whether the taps were synthesised rather than recorded.
+    /// True if the taps were synthesised rather than recorded.
     pub taps_synthetic: bool,
     /// RMS spectral error of LSF quantisation, dB, as the encoder measured it.
     pub lsf_error_db: f32,
-    /// What a reader should know: synthetic parts, unconfirmed defaults.
+    /// Notes for a reader: synthetic parts, unconfirmed defaults.
     pub notes: String,
 }
 

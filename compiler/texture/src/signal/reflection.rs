@@ -82,7 +82,7 @@ pub fn step_up(reflection: &[f64]) -> Vec<f64> {
     current
 }
 
-/// Whether every root of the monic polynomial lies strictly inside the unit circle.
+/// Returns true if every root of the monic polynomial lies strictly inside the unit circle.
 #[must_use]
 pub fn is_stable(monic: &[f64]) -> bool {
     monic.first().is_some_and(|&first| first == 1.0) && step_down(monic).is_some()

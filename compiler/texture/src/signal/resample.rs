@@ -25,7 +25,7 @@ const REACH: usize = 48;
 /// Cut-off relative to the lower rate.
 const CUTOFF: f64 = 0.46;
 
-/// Of the window's series, relative. Frozen bits depend on it.
+/// Relative tolerance of the window's series. Frozen bits depend on it.
 const TOLERANCE: f64 = 1e-12;
 
 /// The signal at another rate, Hz. Output 0 belongs to the time of input 0.

@@ -1,8 +1,8 @@
-//! How hard woods are.
+//! Hardness of woods.
 //!
-//! The model heard a few woods tapped; how the others compare is measured. Side hardness at 12 % moisture
-//! (Janka, ASTM D143), from the Wood Handbook of the Forest Products Laboratory (FPL-GTR-282, tables 5-3
-//! and 5-5), and for woods that it lacks about what dealers state.
+//! The model heard a few woods tapped; measured hardness ranks the others. Side hardness at 12 % moisture (Janka, ASTM
+//! D143), from the Wood Handbook of the Forest Products Laboratory (FPL-GTR-282, tables 5-3 and 5-5), and approximate
+//! figures from dealers for woods that it lacks.
 
 /// Woods, sorted, and the force that presses half a ball of 11.28 mm in, lbf.
 const JANKA: &[(&str, f64)] = &[

@@ -23,18 +23,18 @@ pub use scales::{PAPERS, grit_um, is_paper, own_grain_um};
 /// A number on a scale.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grade {
-    /// What it counts.
+    /// Scale of the number.
     pub scale: Scale,
     /// The number, in the unit of its scale.
     pub value: f64,
 }
 
-/// What a number counts.
+/// Scales of numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
     /// Grit of an abrasive, with or without the P of FEPA.
     Grit {
-        /// Whether the P is written.
+        /// True if the P is written.
         p: bool,
     },
     /// Openings of a sieve per inch.
@@ -92,7 +92,7 @@ impl Grade {
         self.scale.range().contains(&self.value)
     }
 
-    /// What is graded where a prompt names nothing.
+    /// Returns the thing that is graded where a prompt names nothing.
     #[must_use]
     pub fn thing(self) -> &'static str {
         match self.scale {
@@ -110,7 +110,7 @@ impl Grade {
         }
     }
 
-    /// Whether two numbers say the same thing of a surface, so that only one can hold.
+    /// Returns true if two numbers specify the same property of a surface, so that only one can hold.
     #[must_use]
     pub fn conflicts(self, other: Self) -> bool {
         let kind = |grade: Self| match grade.scale {
@@ -122,7 +122,7 @@ impl Grade {
     }
 }
 
-/// What a user should be told of the numbers of a prompt.
+/// A note to the user on the numbers of a prompt.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Note {
     /// A number that its scale does not have.
@@ -190,7 +190,7 @@ pub(crate) fn notes(tokens: &mut Vec<Token>) -> Vec<Note> {
     notes
 }
 
-/// Whether tokens may hold a grade.
+/// Returns true if tokens may hold a grade.
 pub(crate) fn may_be_in(tokens: &[Token]) -> bool {
     let file = |token: &Token| matches!(token, Token::Word(word) if word == "file");
     tokens
@@ -198,7 +198,7 @@ pub(crate) fn may_be_in(tokens: &[Token]) -> bool {
         .any(|token| number::begins(token) || file(token))
 }
 
-/// How much coarser the relief of a text's thing is than its own, by the last number that says it.
+/// Returns the ratio of the relief of a text's thing to that of the thing itself, by the last number that specifies it.
 #[must_use]
 pub fn coarser(text: &str) -> f64 {
     let tokens = super::normalise(text);

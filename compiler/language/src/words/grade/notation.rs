@@ -1,9 +1,9 @@
-//! How people write numbers with a meaning.
+//! Notations for numbers with a meaning.
 
 use super::{Grade, Scale, is_abrasive, parts::Parts};
 use crate::words::Token;
 
-/// What a prompt is about, where a number alone has two readings: "95A", "1000D".
+/// Subject of a prompt, which decides between two readings of a bare number: "95A", "1000D".
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Context {
     polymer: bool,
@@ -74,7 +74,7 @@ impl Context {
         }
     }
 
-    /// Of a file.
+    /// Context of a file.
     pub(super) fn of_file() -> Self {
         Self {
             file: true,

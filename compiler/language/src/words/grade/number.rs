@@ -45,7 +45,7 @@ const PARTS: [(&str, f64); 9] = [
     ("sixteenths", 16.0),
 ];
 
-/// Whether a number may begin with this token.
+/// Returns true if a number may begin with this token.
 pub(super) fn begins(token: &Token) -> bool {
     let Token::Word(word) = token else {
         return false;

@@ -18,7 +18,7 @@ const MOST: usize = 10;
 pub(super) struct Parts<'a> {
     all: Vec<Part<'a>>,
     at: usize,
-    /// Whether a space or a point may group thousands.
+    /// True if a space or a point may group thousands.
     pub(super) grouped: bool,
 }
 
@@ -59,7 +59,7 @@ impl<'a> Parts<'a> {
         Some(self.part()?.text)
     }
 
-    /// Whether the next part belongs to the same token.
+    /// Returns true if the next part belongs to the same token.
     pub(super) fn is_glued(&self) -> bool {
         self.at
             .checked_sub(1)
@@ -101,7 +101,7 @@ impl<'a> Parts<'a> {
         Some(found)
     }
 
-    /// How many whole tokens were read.
+    /// Number of whole tokens that were read.
     pub(super) fn tokens(&self) -> Option<usize> {
         self.all.get(self.at.checked_sub(1)?)?.tokens
     }

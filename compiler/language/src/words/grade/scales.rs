@@ -1,4 +1,4 @@
-//! What the numbers mean, in units of length or on the scales of the attributes.
+//! Conversion of the numbers to units of length, or to the scales of the attributes.
 
 use super::{Grade, Scale};
 
@@ -88,7 +88,7 @@ pub const PAPERS: [(f64, &str); 5] = [
     (18.3, "1000-grit wet-and-dry paper"),
 ];
 
-/// What stones for sharpening are called; they are graded by JIS.
+/// Names of sharpening stones, which are graded by JIS.
 const STONES: &[&str] = &[
     "stone",
     "whetstone",
@@ -121,7 +121,7 @@ const GRAINS: &[(&[&str], f64)] = &[
 /// Grain of sandpaper of no said grade, µm.
 const PAPER: f64 = 100.0;
 
-/// Whether a name is that of sandpaper in general, which the model knows by its grades.
+/// Returns true for a name of sandpaper in general, which the model knows by its grades.
 #[must_use]
 pub fn is_paper(name: &str) -> bool {
     const NAMES: &[&str] = &[
@@ -139,7 +139,7 @@ pub fn is_paper(name: &str) -> bool {
     NAMES.contains(&name)
 }
 
-/// Whether a number beside a name is its grit.
+/// Returns true if a number beside a name is its grit.
 pub(crate) fn is_abrasive(name: &str) -> bool {
     const WORDS: &[&str] = &[
         "sandpaper",
@@ -190,7 +190,7 @@ const CORDUROY: f64 = 11.0;
 const CARPET_MM: f64 = 8.0;
 
 impl Grade {
-    /// How much coarser the relief is than the named material's own; 1 for numbers that do not concern relief.
+    /// Returns the ratio of the relief to the named material's own; 1 for numbers that do not concern relief.
     #[must_use]
     pub fn coarser(self, name: &str) -> f64 {
         match self.scale {

@@ -1,4 +1,4 @@
-//! What a file says by its headers and its first rows.
+//! Proposed entry of a file, from its headers and its first rows.
 
 use super::{TIME_UNITS, quoted};
 use crate::{
@@ -15,11 +15,11 @@ use std::{fmt::Write as _, path::Path};
 
 /// Rows that tell the unit of a clock, and of an acceleration.
 const ROWS: usize = 4000;
-/// How far the mean acceleration may be from gravity to tell its unit.
+/// Tolerance, as a factor, of the mean acceleration from gravity within which its unit is known.
 const GRAVITY_TOLERANCE: f64 = 1.15;
 /// The middle of the rates of sensors, Hz.
 const USUAL_HZ: f64 = 1000.0;
-/// What Klipper writes: mm/s², without saying so.
+/// Header of Klipper's files, which are in mm/s² without stating it.
 const KLIPPER: [&str; 4] = ["time", "accel_x", "accel_y", "accel_z"];
 
 /// A column that a description can name.
@@ -46,7 +46,7 @@ pub(super) struct Entry {
 }
 
 impl Entry {
-    /// What the header says; why the file is left out where that is nothing.
+    /// Reads the entry from the header; the error is the reason to leave the file out.
     pub(super) fn of(path: &Path, file: &str, header: Header) -> Result<Self, String> {
         let (channels, left_out) = channels(file, &header);
         if channels.is_empty() {
@@ -248,7 +248,7 @@ fn channels(file: &str, header: &Header) -> (Vec<Proposed>, Vec<(String, String)
     (channels, left_out)
 }
 
-/// What a file measures by a word of its own name. A WAV without one is an accelerometer's.
+/// Infers the quantity from a word in the file's own name. A WAV without one holds an acceleration.
 fn of_file(file: &str, header: &Header) -> Option<Quantity> {
     let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
     let of_name = words(stem).iter().find_map(|word| match word.as_str() {

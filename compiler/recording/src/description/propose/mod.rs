@@ -26,7 +26,7 @@ const MAX_NAME: usize = 64;
 pub struct Proposal {
     /// As `recording.toml` holds it; comments say what is left out, and why.
     pub text: String,
-    /// How many files it describes. With none, the text is comments alone.
+    /// Number of files that it describes. With none, the text is comments alone.
     pub files: usize,
 }
 

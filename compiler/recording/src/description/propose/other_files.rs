@@ -7,7 +7,7 @@ use asperity_io::{
 };
 use std::{fs::File, io::Read as _, path::Path};
 
-/// What a file is that a recording may be in, and how it becomes one that is read; `None` for any other file.
+/// Names the format of a file that may hold a recording, and the way to convert it; `None` for any other file.
 pub(super) fn remedy(path: &Path) -> Option<String> {
     if !path.is_file() {
         return None;

@@ -1,4 +1,4 @@
-//! What is proposed can be read, and says what it does not know.
+//! Proposals can be read again, and state what they leave open.
 
 use super::*;
 

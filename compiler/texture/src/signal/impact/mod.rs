@@ -89,7 +89,7 @@ const MODE_LIMIT_HZ: f64 = 4500.0;
 /// Samples over which the end of a trace is faded to zero.
 const FADE_SAMPLES: usize = 20;
 
-/// What decides the transients of a surface.
+/// Parameters of a surface's transients.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Impact {
     /// Hertzian contact time at [`REFERENCE_SPEED_M_S`], s.
@@ -231,8 +231,7 @@ mod tests;
 
 // The force of a contact over time.
 
-/// How much of its half of the contact time the closing loses at e = 0: losses lean the pulse
-/// forward.
+/// Fraction of its half of the contact time by which the closing shortens at e = 0: losses lean the pulse forward.
 const LEAN: f64 = 0.3;
 
 /// A Hertzian pulse, `sin^(3/2)` of a phase that runs from 0 to π. The force of a Hertzian contact

@@ -144,8 +144,8 @@ fn a_trace_starts_from_nothing_has_its_impulse_and_ends_faded() {
     }
 }
 
-/// What a model learns must have no step: a thousandth of a decade or of a loss factor moves a trace
-/// by 3 % of its size at most.
+/// Transients to be learned must have no step: a thousandth of a decade or of a loss factor moves a trace by 3 % of its
+/// size at most.
 #[test]
 fn a_trace_changes_smoothly_with_the_material_and_the_speed() {
     let far = |x: &[f64; SAMPLES], y: &[f64; SAMPLES]| {

@@ -145,8 +145,7 @@ pub fn from_reflection(reflection: &[f64]) -> Vec<f64> {
     lsf_rad
 }
 
-/// Whether the frequencies ascend strictly inside (0, π): the condition for the
-/// polynomial to be stable.
+/// Returns true if the frequencies ascend strictly inside (0, π): the condition for the polynomial to be stable.
 #[must_use]
 pub fn is_ordered(lsf_rad: &[f64]) -> bool {
     let inside = |omega: &f64| *omega > 0.0 && *omega < PI;

@@ -104,7 +104,7 @@ impl Brackets {
         std::array::from_fn(|lane| 0.5 * (self.low[lane] + self.high[lane]))
     }
 
-    /// Whether every bracket holds one root.
+    /// Returns true if every bracket holds a single root.
     fn are_isolating(&self) -> bool {
         (0..LANES).all(|lane| self.beyond_low[lane] - self.beyond_high[lane] == 1.0)
     }

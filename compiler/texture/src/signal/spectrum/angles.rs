@@ -7,7 +7,7 @@ use multiversion::multiversion;
 /// Number of frequencies in a block: enough independent sums to keep the multipliers of a processor busy.
 const LANES: usize = 16;
 
-/// One number for every frequency of a block.
+/// A value per frequency of a block.
 type Lanes = [f64; LANES];
 
 /// Frequencies at which polynomials are evaluated side by side.
@@ -25,7 +25,7 @@ struct Block {
 }
 
 impl Angles {
-    /// Of frequencies in rad.
+    /// Prepares frequencies, rad.
     #[must_use]
     pub fn new(omegas: impl Iterator<Item = f64>) -> Self {
         let mut blocks = Vec::new();
