@@ -76,7 +76,7 @@ pub mod pipeline;
 pub mod scene;
 pub mod sources;
 
-/// What every error of this crate says besides its cause: the remedy.
+/// Diagnostics of this crate's errors: their remedies.
 pub use asperity_io::diagnostic;
 
 // Users name a module without its folder, so that files can move between the stages.
