@@ -69,7 +69,7 @@ pub mod scene;
 pub mod sources;
 pub mod views;
 
-/// What every error of this crate says besides its cause: the remedy.
+/// Diagnostics of this crate's errors: their remedies.
 pub use asperity_io::diagnostic;
 
 pub use asperity_texture::{model, signal};

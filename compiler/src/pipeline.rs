@@ -43,14 +43,14 @@ use asperity_texture::model::{ModelGrid, TextureModel};
 /// Fractions of the way to white noise that are tried in turn on a texture that rings.
 const STABILISED: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
-/// What a user can ask of any texture, whatever it is made of.
+/// Options common to all textures, whatever their source.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
     /// Name of the texture; that of the source if `None`.
     pub name: Option<String>,
     /// Level that the vibration is brought to, dB re 1 N RMS; none is if `None`.
     pub loudness_db: Option<f64>,
-    /// How much of the models the asset keeps.
+    /// Fidelity of the asset to the models.
     pub fidelity: Fidelity,
     /// Rate of the models, Hz; that of the source if `None`.
     pub rate_hz: Option<f64>,
@@ -82,12 +82,12 @@ impl Request {
     }
 }
 
-/// Whether models at `model_hz` keep their own rate in a servo loop at `servo_hz`.
+/// Returns true if models at `model_hz` keep their own rate in a servo loop at `servo_hz`.
 pub(crate) fn serves(servo_hz: f64, model_hz: f64) -> bool {
     asperity_runtime::ticks_per_sample(model_hz as f32, servo_hz as f32).is_some()
 }
 
-/// What becomes of a texture that rings without bound in motion.
+/// Treatment of a texture that rings without bound in motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ringing {
     /// It is an error.
@@ -96,7 +96,7 @@ pub enum Ringing {
     Stabilised,
 }
 
-/// What an asset holds beside its texture.
+/// Contents of an asset besides its texture.
 pub(crate) struct Attachments<'a> {
     /// A picture in the place of a preview.
     pub(crate) picture: Option<&'a [u8]>,
@@ -122,7 +122,7 @@ pub struct Pipeline {
 }
 
 impl Pipeline {
-    /// One that times its passes by a clock.
+    /// Creates a pipeline that times its passes by a clock.
     #[must_use]
     pub fn timed(clock: Clock) -> Self {
         Self {
@@ -131,7 +131,7 @@ impl Pipeline {
         }
     }
 
-    /// One of the same clock, for another thread.
+    /// Creates a pipeline with the same clock, for another thread.
     pub(crate) fn another(&self) -> Self {
         Self::timed(self.clock)
     }

@@ -107,7 +107,7 @@ fn prompts() -> Vec<String> {
 /// Continuous force of a Touch over its peak force, N over N.
 const CONTINUOUS_SHARE: f64 = 0.88 / 3.3;
 
-/// What the oracle finds of a texture before and after its gains were limited.
+/// Forces of a texture by the oracle, before and after its gains were limited.
 struct Limited {
     /// RMS of the force at the stroke of the attributes, N.
     before_n: f64,

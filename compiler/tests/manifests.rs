@@ -33,7 +33,7 @@ fn prompts(manifest: &Manifest) -> BTreeMap<String, String> {
         .collect()
 }
 
-/// How a list is written, and how it was damaged.
+/// A list as written, and its damage.
 struct List {
     file: &'static str,
     text: String,

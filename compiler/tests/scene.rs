@@ -293,7 +293,7 @@ fn errors_name_the_file_the_field_and_the_remedy() {
     assert!(gone.contains("gone.toml: cannot read it"), "{gone}");
 }
 
-/// What `asperity render` writes of a scene is what the runtime gives, tick by tick.
+/// `asperity render` writes a scene exactly as the runtime renders it, tick by tick.
 #[test]
 fn a_scene_is_rendered_on_its_surfaces() {
     rendered(1, None);
@@ -453,7 +453,7 @@ fn without_a_budget_a_scene_has_the_textures_of_a_library() {
     assert!(both.error_db > 0.0, "{}", tight.report);
 }
 
-/// What does not run at a divisor of the rate of the loop is converted to it, unless it is asked for so.
+/// Textures whose rate does not divide that of the loop are converted to it, unless a rate is requested.
 #[test]
 fn textures_are_converted_to_the_loop_that_they_cannot_serve() {
     let folder = folder();

@@ -1,4 +1,4 @@
-//! What follows from a texture model alone, on the built-in texture: mixtures as the runtime renders them, attributes,
+//! Properties of a texture model by itself, on the built-in texture: mixtures as the runtime renders them, attributes,
 //! and shifts of them.
 
 use asperity::{

@@ -148,7 +148,7 @@ pub(crate) struct Compile {
     /// Seed: 0 gives the texture that the prompt describes, other values give variations of it
     #[arg(long, default_value_t = 0)]
     pub(crate) seed: u64,
-    /// How much to keep: everything, as little as stays within 0.5 dB, or this AR order
+    /// Model detail to keep: everything, as little as stays within 0.5 dB, or this AR order
     #[arg(long, default_value = "auto", value_name = "full|auto|ORDER")]
     pub(crate) fidelity: Fidelity,
     /// Sample rate of the AR models, Hz; use the rate of your servo loop

@@ -1,4 +1,4 @@
-//! What a file is that is refused, wherever it is given. `cases` has the levels of effects.
+//! Format hints in refusals of files, wherever they are given. `cases` has the levels of effects.
 
 use super::*;
 use std::path::PathBuf;
@@ -104,7 +104,7 @@ fn a_trajectory_that_is_a_workbook_is_named() {
     );
 }
 
-/// What the built-in texture exports to.
+/// Returns an export of the built-in texture.
 fn hmpg(folder: &Path) -> Vec<u8> {
     asperity(folder, &["builtin", "-o", "grit.asp"]);
     asperity(

@@ -1,4 +1,4 @@
-//! What the grammar of a prompt moved stays with the texture, whatever is made of it.
+//! Shifts from a prompt's grammar persist through every operation on the texture.
 
 use super::*;
 use asperity_formats::Asset;
@@ -11,7 +11,7 @@ fn made(folder: &Path, arguments: &[&str]) -> Value {
     serde_json::from_slice(&output.stdout).expect("JSON")
 }
 
-/// What a hand can meet: all haptic sections but the name.
+/// Returns the haptic sections, except the name.
 fn felt(folder: &Path, file: &str) -> Vec<([u8; 4], Vec<u8>)> {
     let bytes = bytes(folder, file);
     let asset = Asset::parse(&bytes).expect("an asset");

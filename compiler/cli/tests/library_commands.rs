@@ -1,4 +1,4 @@
-//! What is done with a library that is built: compared, renamed, split.
+//! Operations on a built library: compare, rename, split.
 
 use super::{library::manifest, *};
 use asperity::emit::pack::{NamedAsset, encode};

@@ -1,5 +1,5 @@
-//! What the system allows a process: files, bytes of a file, signals that end it. Nothing is half-written,
-//! nothing left behind, and the cause is named.
+//! System limits on a process: open files, file size, fatal signals. Nothing is half-written, nothing left behind, and
+//! the cause is named.
 #![cfg(unix)]
 
 use super::*;

@@ -1,4 +1,4 @@
-//! What is wrong with a manifest: by file, line and key, all at once, each once.
+//! Manifest faults are reported by file, line and key, all at once, each once.
 
 use super::*;
 

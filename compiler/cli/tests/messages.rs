@@ -1,4 +1,4 @@
-//! What is said: of hostile input, of prompts that cannot be read, and with which status.
+//! Messages and exit statuses for hostile input and unreadable prompts.
 
 use super::*;
 use serde_json::Value;

@@ -3,7 +3,7 @@
 use super::*;
 use serde_json::Value;
 
-/// What `inspect --json` says of an asset, but where it comes from and how long that takes to say.
+/// Returns the `inspect --json` output of an asset without `provenance` and `bytes`.
 fn content(folder: &Path, file: &str) -> Value {
     let shown = asperity(folder, &["inspect", file, "--json"]);
     assert!(shown.status.success(), "{file}: {}", text(&shown.stderr));

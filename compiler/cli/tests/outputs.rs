@@ -192,8 +192,7 @@ fn a_folder_of_materials_is_piped_as_a_library() {
     assert!(piped.stdout.starts_with(b"ASPL"), "{}", text(&piped.stderr));
 }
 
-/// What the command prints on standard error where the reader of its standard output, or of
-/// both, has gone away.
+/// Returns the exit status and standard error of a command whose reader of standard output, or of both, has gone away.
 #[cfg(unix)]
 fn into_closed_pipe(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
     let (reader, writer) = std::io::pipe().expect("a pipe");

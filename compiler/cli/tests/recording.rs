@@ -104,8 +104,8 @@ fn recorded(table: &str, description: Option<&str>) -> TempDir {
     folder
 }
 
-/// What `record-check` and `import recording` say of a recording that both refuse; neither leaves a
-/// file.
+/// Checks that `record-check` and `import recording` both refuse a recording and leave no file, and returns their
+/// message.
 fn refused_by_both(folder: &Path) -> String {
     let check = asperity(folder, &["record-check", "oak"]);
     let import = asperity(folder, &["import", "recording", "oak", "-o", "oak.asp"]);

@@ -1,4 +1,4 @@
-//! What every command reports with `--json`, and options that say one thing in two ways.
+//! `--json` reports of every command, and options with two spellings.
 
 use super::*;
 use serde_json::Value;

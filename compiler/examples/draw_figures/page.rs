@@ -11,17 +11,17 @@ use asperity::{
 };
 use std::fmt::Write as _;
 
-/// What the page shows.
+/// Contents of the page.
 pub(crate) struct Page<'a> {
     pub(crate) three: &'a [TextureModel],
     /// The same prompts with what each of their words did.
     pub(crate) explained: &'a [(&'a str, Explanation)],
-    /// One end of a blend, its middle, the other end.
+    /// A blend: one end, the middle, the other end.
     pub(crate) blend: &'a [TextureModel],
 }
 
 impl Page<'_> {
-    /// How far `--fidelity auto` moves levels (dB) and centroids (Hz) at most.
+    /// Returns the largest changes of level (dB) and centroid (Hz) under `--fidelity auto`.
     fn moved_by_reduction(&self) -> (f64, f64) {
         let mut most = (0.0_f64, 0.0_f64);
         for texture in self.three.iter().chain(self.blend) {

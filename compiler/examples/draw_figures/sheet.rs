@@ -18,7 +18,7 @@ const PICTURE: f32 = 256.0;
 const ROW: f32 = 400.0;
 /// Width that a line of a title may take.
 const TITLE: f32 = COLUMN - 40.0;
-/// What the colour bar of the last column takes.
+/// Width of the colour bar beside the last column, pixels.
 const BAR: f32 = 140.0;
 /// Frequencies of a spectrum.
 const POINTS: usize = 300;

@@ -1,4 +1,4 @@
-//! What a texture sounds like in three seconds: a slow stroke, a fast one, three taps.
+//! Three seconds of sound of a texture: a slow stroke, a fast one, three taps.
 
 use asperity::{
     emit::lower,
@@ -8,7 +8,7 @@ use asperity::{
 use asperity_formats::Asset;
 use std::{error::Error, io::Cursor};
 
-/// Of the samples, one in so many is kept: a texture at 1 kHz holds nothing above 500 Hz.
+/// Decimation factor: a texture at 1 kHz holds nothing above 500 Hz.
 const KEPT: u32 = 4;
 
 /// The sound as a mono WAV file of 16 bits at 11,025 Hz.

@@ -1,4 +1,4 @@
-//! One texture for someone who sees the first one: how it looks, how strongly it vibrates, how a tap feels.
+//! An introductory figure of a single texture: its look, its vibration level, its tap response.
 
 use crate::sheet::{halved, picture};
 use asperity::{emit::lower, model::TextureModel, signal::spectrum::ArmaModel};

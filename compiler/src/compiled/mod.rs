@@ -40,25 +40,25 @@ pub struct Compiled {
     pub whole: TextureModel,
     /// The texture that the asset holds, with gains that the ceiling allows.
     pub texture: TextureModel,
-    /// How much was asked to be kept.
+    /// Requested fidelity.
     pub fidelity: Fidelity,
-    /// What the fidelity left out, and what that cost.
+    /// Reduction by the fidelity, and its error.
     pub reduction: reduce::Report,
     /// The preview, if one was asked for.
     pub preview: Option<Vec<u8>>,
     /// The asset.
     pub lowered: Lowered,
-    /// What verification saw; `None` for an asset that was taken as it is.
+    /// Verification results; `None` for an asset that was taken as it is.
     pub verified: Option<VerifyReport>,
     /// The fraction of the way to white noise that the models were moved so that they pass, 0..=1.
     pub stabilised: f64,
-    /// How far the asset is from its source, where that is known.
+    /// Error against the source, where known.
     pub compared: Option<Compared>,
-    /// How well what a prompt said is known.
+    /// Certainty of the prompt's interpretation.
     pub certainty: Option<Certainty>,
-    /// What a user should be told.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
-    /// What the source found besides.
+    /// Additional findings of the source.
     pub findings: Option<Arc<dyn Findings>>,
     /// The time of every pass.
     pub timings: Timings,
@@ -81,13 +81,13 @@ impl Compiled {
         attributes::of(&self.texture)
     }
 
-    /// What was left out, unless nothing was to be.
+    /// Returns the reduction report; `None` at full fidelity.
     #[must_use]
     pub fn reduced(&self) -> Option<&reduce::Report> {
         (self.fidelity != Fidelity::Full).then_some(&self.reduction)
     }
 
-    /// What a source of this kind found.
+    /// Returns the findings of a source whose findings have type `F`.
     #[must_use]
     pub fn found<F: Findings>(&self) -> Option<&F> {
         let findings: &dyn Any = &**self.findings.as_ref()?;
@@ -177,7 +177,7 @@ impl Compiled {
 
 // What a source found besides its texture.
 
-/// What a source found, for those who ask.
+/// Findings of a source, for reports.
 pub trait Findings: Any + fmt::Debug + Send + Sync {
     /// The report for people, of one line or more.
     fn text(&self, compiled: &Compiled) -> String;

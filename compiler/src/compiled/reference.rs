@@ -1,4 +1,4 @@
-//! What an asset is measured against.
+//! Reference for the compile error.
 
 use super::Compared;
 use crate::{
@@ -12,9 +12,8 @@ use asperity_texture::{
     signal::spectrum::{ArmaModel, log_spectral_distance_db},
 };
 
-/// What an asset that keeps all of a texture is measured against. One that leaves something out is
-/// measured against what the whole grid renders, at the places of
-/// [`mixture::places`](asperity_texture::model::mixture::places), whatever it came from.
+/// Reference for the compile error of an asset at full fidelity. A reduced asset is measured against the rendering of
+/// the whole grid, at the places of [`mixture::places`](asperity_texture::model::mixture::places), whatever its source.
 #[derive(Debug, Clone)]
 pub enum ErrorReference {
     /// The texture before its reduction.

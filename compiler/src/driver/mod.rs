@@ -45,7 +45,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[error("{origin}{colon}{cause}", colon = if origin.is_empty() { "" } else { ": " })]
 pub struct Stopped {
-    /// What its source is called; may be empty.
+    /// Name of the source; may be empty.
     pub origin: String,
     /// The pass that failed, and why.
     pub cause: PipelineError,

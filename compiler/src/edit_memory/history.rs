@@ -1,4 +1,4 @@
-//! How a texture was made and edited: what `hist` holds.
+//! Creation and edit history of a texture: the contents of `hist`.
 
 use super::{
     latents::{Latents, of_hex, to_hex},
@@ -9,21 +9,21 @@ use asperity_formats::limits::MAX_HISTORY_BYTES;
 use asperity_texture::model::shift::Shift;
 use serde::{Deserialize, Serialize};
 
-/// How a texture was made, and every edit since. Of a prompt, its provenance names prompt and seed, and the
-/// history holds how sure it was, and a shift, where the prompt has a grammar.
+/// Creation and edit history of a texture. For a prompt, the provenance holds prompt and seed; the history holds the
+/// certainty and, if the prompt has a grammar, a shift.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct History {
-    /// How it was made, unless of a prompt.
+    /// Origin, unless a prompt.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub made: Option<Origin>,
-    /// How well what the prompt says is known.
+    /// Certainty of the prompt's interpretation.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub certainty: Option<Certainty>,
     /// Level that all textures were brought to, dB re 1 N RMS of force; none is the default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub loudness_db: Option<f64>,
-    /// What moves after decoding. `remember` takes it from the latents.
+    /// Shift applied after decoding. `remember` takes it from the latents.
     #[serde(default, skip_serializing_if = "Shift::is_none")]
     pub shift: Shift,
     /// Edits, the oldest first.
@@ -31,7 +31,7 @@ pub struct History {
     pub steps: Vec<Step>,
 }
 
-/// How a texture without a prompt of its own was made.
+/// Origin of a texture without a prompt of its own.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Origin {
@@ -46,9 +46,9 @@ pub enum Origin {
     },
     /// Parts of several textures.
     Compose {
-        /// What tapping feels like.
+        /// Source of the tap response.
         tap: Ingredient,
-        /// What sliding feels like.
+        /// Source of the sliding vibration.
         slide: Ingredient,
         /// Where friction comes from.
         friction: Ingredient,
@@ -73,7 +73,7 @@ pub struct Ingredient {
     pub prompt: Option<String>,
     /// Its latents as hexadecimal text, one or three.
     pub latents: Vec<String>,
-    /// What moved after it was decoded.
+    /// Shift applied after decoding.
     #[serde(default, skip_serializing_if = "Shift::is_none")]
     pub shift: Shift,
 }
@@ -97,18 +97,18 @@ impl Ingredient {
     }
 }
 
-/// One edit.
+/// A single edit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Step {
-    /// What was asked for, or what its words came to.
+    /// Requested sliders, or those that the words resolved to.
     pub edit: Sliders,
     /// The words, if it was asked for in words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub prompt: Option<String>,
     /// The latents before it as hexadecimal text, one or three.
     pub before: Vec<String>,
-    /// What moved after they were decoded.
+    /// Shift applied after decoding `before`.
     #[serde(default, skip_serializing_if = "Shift::is_none")]
     pub shift: Shift,
 }
@@ -160,7 +160,7 @@ impl History {
         }
     }
 
-    /// Whether there is nothing to write.
+    /// Returns true if there is nothing to write.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self == &Self::default()

@@ -14,13 +14,12 @@ pub struct Latents {
     pub tap: Latent,
     /// μ and its anchors.
     pub friction: Latent,
-    /// What moves after decoding: roughness of the slide, hardness of the tap, slipperiness of the
-    /// friction.
+    /// Shift applied after decoding: roughness of the slide, hardness of the tap, slipperiness of the friction.
     pub shift: Shift,
 }
 
 impl Latents {
-    /// One latent for all parts.
+    /// Uses the same latent for all parts.
     #[must_use]
     pub fn whole(z: Latent) -> Self {
         Self {
@@ -70,7 +69,7 @@ impl Latents {
         }
     }
 
-    /// Whether all parts have one latent.
+    /// Returns true if all parts share one latent.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.slide == self.tap && self.slide == self.friction

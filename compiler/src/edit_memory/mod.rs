@@ -1,4 +1,4 @@
-//! What an asset remembers of how it was made: latents and history, outside the haptic sections.
+//! Edit memory of an asset: latents and history, outside the haptic sections.
 //!
 //! The runtime skips both; [edits](crate::sources::latents) begin with them. An asset that was not decoded from a latent remembers
 //! nothing:
@@ -36,14 +36,14 @@ use thiserror::Error;
 const LATENT_TAG: [u8; 4] = *b"late";
 const HISTORY_TAG: [u8; 4] = *b"hist";
 
-/// What an asset remembers of its making.
+/// Edit memory of an asset.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Memory {
     /// CRC-32 of the model whose latents these are.
     pub model_crc32: u32,
-    /// What it was decoded from.
+    /// Latents that the texture was decoded from.
     pub latents: Latents,
-    /// How it was made and edited.
+    /// Creation and edit history.
     pub history: History,
 }
 
@@ -88,7 +88,7 @@ fn latent_body(memory: &Memory) -> Vec<u8> {
 pub struct HistoryError {
     /// The texture.
     pub name: String,
-    /// What is wrong.
+    /// Description of the fault.
     pub message: String,
 }
 
@@ -98,7 +98,7 @@ impl Diagnostic for HistoryError {
     }
 }
 
-/// What an asset remembers; `None` if it has no latent, or one of another width than this version's.
+/// Reads the edit memory of an asset; `None` if it has no latent, or a latent of another width than this version's.
 ///
 /// # Errors
 /// [`HistoryError`] for a history that this version does not write.

@@ -54,7 +54,7 @@ impl Axis {
     }
 }
 
-/// How far an edit moves each attribute, in steps of the [`Scale`](crate::sources::latents::Scale); 0 keeps it.
+/// Change of each attribute, in steps of the [`Scale`](crate::sources::latents::Scale); 0 keeps it.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Sliders {
@@ -81,7 +81,7 @@ impl Sliders {
     /// Largest step of a slider.
     pub const LARGEST: f64 = 100.0;
 
-    /// How far one attribute is moved.
+    /// Returns the change of an attribute, in steps.
     #[must_use]
     pub fn along(&self, axis: Axis) -> f64 {
         match axis {
@@ -102,7 +102,7 @@ impl Sliders {
         }
     }
 
-    /// Whether nothing is moved.
+    /// Returns true if all sliders are zero.
     #[must_use]
     pub fn are_still(&self) -> bool {
         *self == Self::default()

@@ -90,7 +90,7 @@ pub fn attributes(asset: &Asset<'_>, meter: &mut Meter) -> Attributes {
     Attributes::of_parts(vibration, hard_hz, f64::from(asset.friction().mu()))
 }
 
-/// How the friction of an asset depends on speed, if it does.
+/// Returns the speed dependence of the friction, if any.
 #[must_use]
 pub fn law(asset: &Asset<'_>) -> Option<FrictionLaw> {
     let law = asset.friction().law()?;
@@ -182,7 +182,7 @@ mod tests {
     use super::*;
     use crate::{emit::lower::lower, sources::builtin};
 
-    /// What is left out of the model decides no attribute: they are the same to the bit.
+    /// Attributes do not depend on the parts of the model that an asset omits: they are equal to the bit.
     #[test]
     fn attributes_of_an_asset_are_those_of_its_model() {
         let mut meter = Meter::default();

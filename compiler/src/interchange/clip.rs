@@ -13,7 +13,7 @@ const ONSET: f64 = 0.05;
 pub struct Clip {
     /// Name of the texture.
     pub name: String,
-    /// What the clip holds, in words.
+    /// Description of the contents.
     pub description: String,
     /// Rate of the signals, Hz.
     pub rate_hz: u32,
@@ -21,14 +21,14 @@ pub struct Clip {
     pub strokes: Vec<Take>,
     /// The taps.
     pub taps: Vec<Take>,
-    /// What a format's full scale means.
+    /// Meaning of a format's full scale.
     pub scale: Scale,
 }
 
-/// One stroke or tap.
+/// A single stroke or tap.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Take {
-    /// What the hand did.
+    /// Description of the gesture.
     pub label: String,
     /// When it begins, s.
     pub start_s: f64,
@@ -39,9 +39,9 @@ pub struct Take {
 /// Accelerations that a format's largest amplitude stands for, m/s².
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Scale {
-    /// Of strokes.
+    /// For strokes.
     pub stroke_m_s2: f64,
-    /// Of taps.
+    /// For taps.
     pub tap_m_s2: f64,
 }
 

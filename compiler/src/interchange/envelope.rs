@@ -14,7 +14,7 @@ const LOWEST_HZ: f64 = 20.0;
 /// Frequencies above that no hand feels, Hz.
 const HIGHEST_HZ: f64 = 1000.0;
 
-/// One point of an envelope.
+/// Breakpoint of an envelope.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Point {
     /// Time, s.

@@ -21,7 +21,7 @@ pub enum ExportError {
         format: &'static str,
         /// Time of the clip, s.
         seconds: f64,
-        /// What the format holds, s.
+        /// Maximum time of the format, s.
         limit_s: f64,
     },
     /// The pictures could not be drawn.
@@ -35,7 +35,7 @@ pub enum ExportError {
     ReadBack {
         /// Name of the texture.
         texture: String,
-        /// What is wrong with it.
+        /// Description of the fault.
         problem: String,
     },
 }
@@ -69,14 +69,14 @@ pub struct EffectError {
     pub file: PathBuf,
     /// JSON path of the field; empty for the file itself.
     pub field: String,
-    /// What is wrong.
+    /// The fault.
     pub problem: EffectProblem,
 }
 
 /// The JSON path of a field, and what is wrong with it.
 pub(crate) type Fault = (String, EffectProblem);
 
-/// What is wrong with a file of effects.
+/// Fault of an effect file.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum EffectProblem {
@@ -89,9 +89,9 @@ pub enum EffectProblem {
     /// A version that is not read.
     #[error("{found}, {expected} expected")]
     Version {
-        /// What the file says.
+        /// Version of the file.
         found: String,
-        /// What is read.
+        /// Supported version.
         expected: &'static str,
     },
     /// A number outside its range.
@@ -99,7 +99,7 @@ pub enum EffectProblem {
     Value {
         /// The number.
         value: f64,
-        /// What it must be.
+        /// Accepted values.
         rule: String,
     },
     /// A time that lies before the one before it.
@@ -113,11 +113,11 @@ pub enum EffectProblem {
     /// More of something than is read.
     #[error("{found} {what}, at most {limit} are read")]
     TooMany {
-        /// What there is too much of.
+        /// Name of the counted item.
         what: &'static str,
-        /// How much was found.
+        /// Amount found.
         found: f64,
-        /// How much is read.
+        /// Maximum amount.
         limit: f64,
     },
     /// Something that the format allows and that is not read.
@@ -127,7 +127,7 @@ pub enum EffectProblem {
     #[error("it holds no effect that sounds{colon}{reasons}",
         colon = if reasons.is_empty() { "" } else { ": " }, reasons = reasons.join("; "))]
     Silent {
-        /// What was left out, or why what was read is silent.
+        /// Omissions, or reasons why the rest is silent.
         reasons: Vec<String>,
     },
     /// A name that an asset cannot hold.

@@ -32,7 +32,7 @@ const STROKE: Stroke = Stroke {
 /// Bands up to this part of the rate of the loop count.
 const TOP: f64 = 0.45;
 
-/// What numbers of an export and of an import of effects may be.
+/// Ranges of the numeric options of effect export and import.
 pub mod ranges {
     use std::ops::RangeInclusive;
 
@@ -147,10 +147,10 @@ impl fmt::Display for Format {
     }
 }
 
-/// What a user can ask of an export.
+/// Export options.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
-    /// What the hand does.
+    /// Gesture.
     pub session: Gesture,
     /// Rate of the loop, Hz; that of the texture if `None`.
     pub rate_hz: Option<f32>,
@@ -164,7 +164,7 @@ pub struct Options {
     pub size_px: u32,
 }
 
-/// What the command asks for where a user states nothing.
+/// Defaults of the command.
 impl Default for Options {
     fn default() -> Self {
         Self {
@@ -178,7 +178,7 @@ impl Default for Options {
     }
 }
 
-/// One stroke and the taps, or what is asked for: a stroke, or taps alone.
+/// Returns the default session, one stroke and the taps, or the requested one: a stroke, or taps alone.
 #[must_use]
 pub fn session(
     speed_mm_s: Option<f32>,
@@ -207,11 +207,11 @@ pub fn session(
 pub struct Exported {
     /// The file.
     pub bytes: Vec<u8>,
-    /// What the format carries; `None` where it holds the asset itself.
+    /// Full scales; `None` for a format that holds the asset itself.
     pub scale: Option<Scale>,
     /// Every stroke and tap.
     pub carried: Vec<Carried>,
-    /// What a user should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
 }
 
@@ -229,10 +229,10 @@ impl Exported {
     }
 }
 
-/// What a format carries of a stroke or a tap.
+/// Level loss of a stroke or a tap in a format.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Carried {
-    /// What the hand did.
+    /// Description of the gesture.
     pub part: String,
     /// The difference in third octaves; `None` for a part that does not sound.
     pub loss: Option<Loss>,

@@ -46,7 +46,7 @@ pub(super) fn vibration(clip: &Clip) -> Option<Vibration> {
     })
 }
 
-/// What a player makes of it: a tone through every stroke, in full scales.
+/// Returns the track that a player renders: a tone through every stroke, in full scales.
 pub(super) fn played(clip: &Clip, vibration: Vibration) -> Track {
     let amplitude = std::f64::consts::SQRT_2 * vibration.rms_m_s2 / clip.scale.stroke_m_s2;
     let point = |t_s| TonePoint {
@@ -166,7 +166,7 @@ fn roughness(texture: &TextureModel) -> f64 {
     (0.25 + 0.6 * mu).clamp(0.0, 1.0)
 }
 
-/// One white pixel.
+/// A 1 × 1 white PNG.
 fn white() -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, 1, 1);

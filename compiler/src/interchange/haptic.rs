@@ -189,7 +189,7 @@ fn straightened(points: Vec<Amplitude>) -> Vec<Amplitude> {
     kept
 }
 
-/// What the text of a file plays.
+/// Parses the text of a file into a track.
 ///
 /// # Errors
 /// The JSON path of the first field at fault, and what is wrong with it.

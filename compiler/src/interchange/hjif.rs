@@ -100,7 +100,7 @@ pub(super) struct Keyframe {
     pub(super) frequency_modulation: Option<i64>,
 }
 
-/// What is skipped when it is read, and empty when it is written.
+/// A value that is ignored on reading and written empty.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Nothing;
 
@@ -225,7 +225,7 @@ pub(super) fn write(clip: &Clip) -> Vec<u8> {
     bytes
 }
 
-/// What the text of a file plays.
+/// Parses the text of a file into a track.
 ///
 /// # Errors
 /// The JSON path of the first field at fault, and what is wrong with it.
@@ -233,7 +233,7 @@ pub(crate) fn read(text: &str) -> Result<Track, Fault> {
     play(&json::<Document>(text)?)
 }
 
-/// What a document plays.
+/// Converts a document into a track.
 pub(super) fn play(document: &Document) -> Result<Track, Fault> {
     let timescale = within(
         || "timescale".into(),

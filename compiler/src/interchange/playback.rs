@@ -1,4 +1,4 @@
-//! What a player makes of effects: tones, curves and transients.
+//! Playback of effects: tones, curves and transients.
 //!
 //! A tone is a sine with amplitude and frequency over time. A curve is the signal itself, drawn by
 //! straight lines. A transient is two periods of a sine, as the reference software of MPEG plays it.
@@ -18,10 +18,10 @@ pub struct Track {
     pub curves: Vec<Vec<CurvePoint>>,
     /// Transients, in order of time.
     pub transients: Vec<Transient>,
-    /// Whether the phase of a tone is zero where the tone begins, rather than at its first sample. Tones of
-    /// one frequency that sound together are as loud as their phases say.
+    /// True if the phase of a tone is zero where the tone begins, rather than at its first sample. The relative phases
+    /// of simultaneous tones of equal frequency determine their level.
     pub phase_from_beginning: bool,
-    /// What was read otherwise than it was meant.
+    /// Deviations from the file in reading it.
     pub warnings: Vec<String>,
 }
 

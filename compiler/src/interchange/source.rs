@@ -20,14 +20,14 @@ const PREFIX: &str = "asperity_image";
 /// Longest symbol that all compilers tell apart to its end (C11, 5.2.4.1).
 const LONGEST: usize = 63;
 
-/// What a user can ask of source text.
+/// Options of source text.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct SourceOptions<'a> {
     /// Name of the file that declares the array of a C source, if there is one.
     pub header: Option<&'a str>,
     /// Symbol of the array, an [identifier](parse_symbol); made of the name if `None`.
     pub symbol: Option<&'a str>,
-    /// Whether previews stay in the image. A runtime does not read them.
+    /// True if previews stay in the image. A runtime does not read them.
     pub keep_preview: bool,
 }
 
@@ -191,7 +191,7 @@ pub fn parse_symbol(text: &str) -> Result<String, String> {
     }
 }
 
-/// Whether `#include "…"` can name a file: it knows no escapes. A source without it declares the array itself.
+/// Returns true if `#include "…"` can name a file: it has no escapes. A source without it declares the array itself.
 fn can_be_included(name: &str) -> bool {
     !name
         .chars()

@@ -1,4 +1,4 @@
-//! What is written reads back, keeps to the rules of its format, and loses no more than is said.
+//! Exports read back, obey the rules of their format, and lose no more than reported.
 
 use super::*;
 use crate::{
@@ -101,7 +101,7 @@ fn a_curve_keeps_the_stroke_within_half_a_decibel_and_eight_bits_within_two() {
     assert!(rms < 1.0 && worst < 3.0, "{rms} {worst}");
 }
 
-/// One tone cannot be noise, but it has its level.
+/// A single tone cannot be noise, but it has its level.
 #[test]
 fn envelopes_keep_the_level_of_the_stroke_within_a_decibel() {
     let (clip, _) = with(|asset| clip(asset, &options()).unwrap());

@@ -13,7 +13,7 @@ pub const FLOOR_DB: f64 = 40.0;
 /// Most segments that a spectrum is averaged over.
 const MAX_SEGMENTS: usize = 64;
 
-/// What a signal is like.
+/// Type of signal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
     /// It goes on: Hann windows of 1 s, which overlap by half, are averaged.
@@ -97,7 +97,7 @@ pub struct Band {
     pub carried_db: f64,
 }
 
-/// What a format loses of a signal, over the third octaves in which either of both sounds.
+/// Level loss of a signal in a format, over the third octaves in which either of the two sounds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Loss {
     /// RMS of the level differences, dB.

@@ -28,7 +28,7 @@ pub(super) fn write(samples: &[i16]) -> Result<Vec<u8>, hound::Error> {
     wav(samples)
 }
 
-/// What the samples play, in full scales.
+/// Returns the samples as played, in full scales.
 pub(super) fn played(samples: &[i16], rate_hz: u32) -> Vec<f64> {
     let full: Vec<f64> = samples
         .iter()

@@ -1,4 +1,4 @@
-//! How well what a prompt says is known, and how often such prompts come out right.
+//! Certainty of a prompt's interpretation, and how often such prompts come out right.
 
 use serde::{Deserialize, Serialize};
 use std::{
@@ -6,7 +6,7 @@ use std::{
     str::FromStr,
 };
 
-/// How well what a prompt says is known; the least first.
+/// Certainty of a prompt's interpretation, least first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Certainty {

@@ -1,4 +1,4 @@
-//! What a description must say before its networks are trusted.
+//! Validation of a model description before its networks are used.
 
 use super::{
     description::{FORMAT, LATENT, ModelDescription},

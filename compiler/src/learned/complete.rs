@@ -47,7 +47,7 @@ pub fn grid_of_taps(model: &LearnedModel, taps: &TapBank) -> Result<ModelGrid, M
     Ok(texture::grid(&description.grid, &model.decode_grid(&z)?))
 }
 
-/// What the AR encoder sees of a grid: 21 LSFs and the level in every bin.
+/// Returns the AR encoder's input for a grid: 21 LSFs and the level in every bin.
 ///
 /// Within the grid the log spectra of a triangle's corners are mixed with their barycentric weights.
 /// Bins beyond its rectangle are moved onto the border. Silent corners do not count.
@@ -141,8 +141,8 @@ fn corners(grid: &ModelGrid, speed_mm_s: f64, force_n: f64) -> Vec<(usize, f64)>
         .unwrap_or_default()
 }
 
-/// What the tap encoder sees of a bank: traces at the encoder's speeds, rate and length. They are
-/// interpolated linearly between the two nearest, and proportional to speed beyond the ends.
+/// Returns the tap encoder's input for a bank: traces at the encoder's speeds, rate and length. They are interpolated
+/// linearly between the two nearest, and proportional to speed beyond the ends.
 #[must_use]
 pub fn tap_channels(wanted: &TapDescription, taps: &TapBank) -> Vec<f32> {
     let mut channels = Vec::with_capacity(wanted.speeds_m_s.len() * wanted.samples);

@@ -15,7 +15,7 @@ pub struct ModelDescription {
     pub format: u32,
     /// Name of the model, e.g. `reference`.
     pub name: String,
-    /// What it was trained on.
+    /// Training corpus.
     pub corpus: CorpusDescription,
     /// The text encoder its projection expects.
     pub text_encoder: TextEncoderDescription,
@@ -25,7 +25,7 @@ pub struct ModelDescription {
     pub grid: GridDescription,
     /// The tap bank of the tap decoder.
     pub taps: TapDescription,
-    /// How μ is read from the anchors.
+    /// Parameters for interpolating μ from the anchors.
     pub friction: FrictionDescription,
     /// The training materials: friction anchors and landmarks of the latent.
     pub anchors: Vec<Anchor>,
@@ -44,7 +44,7 @@ pub struct ModelDescription {
     pub same_latent: Vec<u32>,
 }
 
-/// What a model was trained on.
+/// Training corpus of a model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CorpusDescription {
@@ -54,7 +54,7 @@ pub struct CorpusDescription {
     pub licence: String,
     /// CRC-32 of its files.
     pub crc32: u32,
-    /// Whether its taps were synthesised rather than recorded.
+    /// True if the taps were synthesised rather than recorded.
     pub taps_synthetic: bool,
 }
 
@@ -102,7 +102,7 @@ pub struct TapDescription {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FrictionDescription {
-    /// How many anchors count.
+    /// Number of nearest anchors used.
     pub top_k: usize,
     /// Temperature of the softmax over cosines.
     pub temperature: f64,

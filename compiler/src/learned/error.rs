@@ -16,7 +16,7 @@ pub enum ModelError {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// I/O error.
         source: std::io::Error,
     },
     /// The description lacks something, or contradicts itself.
@@ -32,7 +32,7 @@ pub enum ModelError {
     Network {
         /// The file.
         file: String,
-        /// What happened.
+        /// Error message.
         message: String,
     },
     /// A text vector of another width than the projection takes.
@@ -40,9 +40,9 @@ pub enum ModelError {
         "text_projection.onnx takes vectors of {expected} numbers, the text encoder gives {found}"
     )]
     Width {
-        /// What the projection takes.
+        /// Width of the projection's input.
         expected: usize,
-        /// What was given.
+        /// Width of the vector.
         found: usize,
     },
 }

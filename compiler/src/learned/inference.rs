@@ -14,7 +14,7 @@ use asperity_onnxruntime::OnnxRuntime;
 use std::{borrow::Cow, fmt, num::NonZero, path::Path, str::FromStr, thread};
 use thiserror::Error;
 
-/// What runs the networks.
+/// Inference back end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Backend {
     /// The project's own engine, which gives the same bits on every machine.

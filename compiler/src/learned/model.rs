@@ -25,8 +25,8 @@ pub type Latent = [f32; LATENT];
 pub struct Projected {
     /// The latent.
     pub z: Latent,
-    /// How rough, slippery and hard the words are, as dB, −ln μ and ln Hz; `None` from a projection
-    /// without that output.
+    /// Roughness in dB, slipperiness as −ln μ and hardness as ln Hz of the words; `None` from a projection without that
+    /// output.
     pub felt: Option<[f32; FELT]>,
     /// Cosine of the text with the mean caption of every anchor, in their order.
     pub similarity: Vec<f32>,
@@ -35,16 +35,16 @@ pub struct Projected {
     pub familiarity: f32,
 }
 
-/// What a latent decodes to.
+/// A decoded latent.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decoded {
-    /// Of sliding.
+    /// Sliding.
     pub grid: DecodedGrid,
     /// Traces, m/s², `speeds × samples`, in the order of the description.
     pub taps_m_s2: Vec<f32>,
 }
 
-/// What a latent decodes to of sliding, bins in the order of the description.
+/// Decoded sliding, bins in the order of the description.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DecodedGrid {
     /// LSFs, rad, `bins × order`.
@@ -109,7 +109,7 @@ impl LearnedModel {
         self.crc32
     }
 
-    /// Whether latents that a model of this CRC-32 made mean the same here.
+    /// Returns true if latents of the model with this CRC-32 are valid for this one.
     #[must_use]
     pub fn has_latent_of(&self, crc32: u32) -> bool {
         crc32 == self.crc32 || self.description.same_latent.contains(&crc32)
@@ -216,7 +216,7 @@ impl LearnedModel {
         Ok(all)
     }
 
-    /// What [`decode`](Self::decode) gives of sliding.
+    /// Returns the sliding part of [`decode`](Self::decode).
     ///
     /// # Errors
     /// As [`decode`](Self::decode).
@@ -225,7 +225,7 @@ impl LearnedModel {
             .map(|mut all| all.remove(0))
     }
 
-    /// What [`decode`](Self::decode) gives of tapping: traces, m/s², `speeds × samples`.
+    /// Returns the tapping part of [`decode`](Self::decode): traces, m/s², `speeds × samples`.
     ///
     /// # Errors
     /// As [`decode`](Self::decode).

@@ -28,7 +28,7 @@ impl Network {
         Ok(Self { file, session })
     }
 
-    /// What it says to these inputs.
+    /// Runs the network on these inputs.
     ///
     /// # Errors
     /// [`ModelError::Network`] with its file.
@@ -52,14 +52,14 @@ impl Network {
     }
 }
 
-/// What a network said.
+/// Outputs of a network.
 pub(super) struct Outputs {
     file: &'static str,
     all: Vec<(String, Tensor)>,
 }
 
 impl Outputs {
-    /// Whether there is an output of this name.
+    /// Returns true if there is an output of this name.
     pub(super) fn has(&self, name: &str) -> bool {
         self.find(name).is_some()
     }

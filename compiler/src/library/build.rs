@@ -34,18 +34,18 @@ use std::{
 /// Prompts that are read together before the first of them is made.
 const TOGETHER: usize = 64;
 
-/// What is asked of a build besides its manifest. By default there is no cache.
+/// Build options besides the manifest. By default there is no cache.
 #[derive(Debug, Default)]
 pub struct Request<'a> {
     /// Where textures are kept between builds.
     pub cache: Option<&'a Cache>,
     /// Which part is built; all of it if `None`.
     pub shard: Option<Shard>,
-    /// What identifies this program besides its version: two that may give other bytes differ.
+    /// Program identifier besides its version: programs that may give different bytes differ in it.
     pub program: String,
     /// Versions and model, which the cache and the lock file tell builds apart by.
     pub pinned: Pinned,
-    /// What passes are timed by.
+    /// Clock that times the passes.
     pub clock: Clock,
     /// The least certainty of a prompt; any if `None`.
     pub min_certainty: Option<Certainty>,
@@ -61,11 +61,11 @@ pub struct Request<'a> {
 pub struct Built {
     /// The library, ready to be written.
     pub library: Packed,
-    /// What was made, and what the cache had.
+    /// Textures that were built, and textures taken from the cache.
     pub report: Report,
     /// The time of every pass, on all threads together.
     pub timings: Timings,
-    /// What a user should be told.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
 }
 
@@ -103,7 +103,7 @@ impl<'a> Build<'a> {
         })
     }
 
-    /// Of these textures of the manifest alone, by their indices.
+    /// Restricts the build to these indices of the manifest.
     #[must_use]
     pub fn only(mut self, indices: &[usize]) -> Self {
         self.chosen.retain(|(index, _)| indices.contains(index));
@@ -116,7 +116,7 @@ impl<'a> Build<'a> {
         self.chosen.len()
     }
 
-    /// Whether the part has no texture.
+    /// Returns true if the part has no texture.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.chosen.is_empty()

@@ -1,4 +1,4 @@
-//! What `build` is given: the manifest of a library, or a scene.
+//! Input file of `build`: the manifest of a library, or a scene.
 
 use super::manifest;
 use asperity_io::{
@@ -16,7 +16,7 @@ pub struct BuildFile {
     pub text: String,
     /// The files that it may name.
     pub reach: Reach,
-    /// Whether it is a scene.
+    /// True if it is a scene.
     pub is_scene: bool,
 }
 

@@ -34,7 +34,7 @@ const VARIABLE: &str = "ASPERITY_CACHE";
 #[derive(Debug)]
 pub struct Cache {
     folder: PathBuf,
-    /// Whether a write failed, after which no more are tried.
+    /// True after a failed write; no further writes are tried.
     full: AtomicBool,
 }
 
@@ -147,7 +147,7 @@ impl Cache {
         write().map_err(|error| error.source)
     }
 
-    /// Whether the folders of an entry are the user's own.
+    /// Checks that the folders of an entry are the user's own.
     fn check(&self, place: &Path) -> io::Result<()> {
         // A user may keep the cache elsewhere by a link.
         check_folder(&self.folder, true)?;

@@ -1,4 +1,4 @@
-//! What changed between two versions of a texture.
+//! Changes between two versions of a texture.
 
 use crate::{
     emit::raise::raise,
@@ -14,7 +14,7 @@ use asperity_texture::model::{
 use serde::Serialize;
 use std::fmt;
 
-/// What changed between two versions of a texture.
+/// Changes between two versions of a texture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Change {
     /// Sections that differ, by their tags.
@@ -36,14 +36,14 @@ pub struct Change {
     pub law: Option<[Option<FrictionLaw>; 2]>,
     /// Attributes that moved as far as a person notices: `rough`, `sharp`, `hard`, `slippery`.
     pub felt: Vec<&'static str>,
-    /// Whether the picture is another one.
+    /// True if the picture changed.
     pub picture: bool,
-    /// Whether a hand can meet the change: anything but picture, provenance, latent and history.
+    /// True if the change is haptic: in anything but picture, provenance, latent and history.
     pub haptic: bool,
 }
 
 impl Change {
-    /// What changed; `None` if nothing did.
+    /// Compares two versions; `None` if they are equal.
     #[must_use]
     pub fn between(old: &Asset<'_>, new: &Asset<'_>) -> Option<Self> {
         let sections = sections(old, new);
@@ -73,7 +73,7 @@ impl Change {
     }
 }
 
-/// What a person notices: a level by 1.6 dB, a frequency by 18 %, friction by 10 %.
+/// Just-noticeable differences: level 1.6 dB, frequency 18 %, friction 10 %.
 const NOTICED_DB: f64 = 1.6;
 const NOTICED_FREQUENCY: f64 = 1.18;
 const NOTICED_FRICTION: f64 = 1.1;

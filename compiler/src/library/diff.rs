@@ -1,11 +1,11 @@
-//! What changed between two versions of a library.
+//! Changes between two versions of a library.
 
 use super::{change::Change, loaded_library::LoadedLibrary};
 use asperity_formats::{Asset, FormatError};
 use serde::Serialize;
 use std::{collections::BTreeMap, fmt};
 
-/// What changed between two libraries, or two assets.
+/// Changes between two libraries, or two assets.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Difference {
     /// Textures that are new.
@@ -68,7 +68,7 @@ impl Difference {
         Ok(())
     }
 
-    /// Whether nothing changed.
+    /// Returns true if nothing changed.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.added.is_empty() && self.removed.is_empty() && self.changed.is_empty()

@@ -16,7 +16,7 @@ pub struct EntryError {
     pub name: String,
     /// Key of its source.
     pub key: &'static str,
-    /// What went wrong.
+    /// The cause.
     pub cause: Failure,
 }
 
@@ -54,9 +54,9 @@ pub enum LibraryFault {
     /// A prompt is less certain than is asked for.
     #[error("the certainty of the prompt is {found:?}, but --min-certainty requires {least:?}", found = found.to_string(), least = least.to_string())]
     Unsure {
-        /// How certain it is.
+        /// Certainty of the prompt.
         found: Certainty,
-        /// How certain it is to be.
+        /// Required certainty.
         least: Certainty,
     },
     /// A temporary file does not take more.

@@ -1,4 +1,4 @@
-//! What a report says of a texture besides its bytes; cached with them.
+//! Reported figures of a texture; cached with its bytes.
 
 use crate::learned::Certainty;
 use crate::{driver::Compiled, passes::reduce::Fidelity};
@@ -18,7 +18,7 @@ pub struct Facts {
     pub hard_hz: Option<f64>,
     /// Coefficient of kinetic friction.
     pub mu: f64,
-    /// How well what a prompt says is known.
+    /// Certainty of the prompt's interpretation.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub certainty_level: Option<Certainty>,
     /// The share of such prompts that came out right, 0..=1.
@@ -29,7 +29,7 @@ pub struct Facts {
     pub reduced_db: Option<f64>,
     /// Factor that the auto-gain put on the vibration; 1 where it fits the device as it is.
     pub vibration_factor: f64,
-    /// What a user should be told.
+    /// Warnings for the user.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<String>,
 }

@@ -18,9 +18,9 @@ pub struct LoadedLibrary {
     pub shown: String,
     /// Names with the bytes of their assets.
     pub textures: Vec<(String, Vec<u8>)>,
-    /// Whether the file is a library rather than an asset.
+    /// True if the file is a library rather than an asset.
     pub is_library: bool,
-    /// Whether it has a scene.
+    /// True if it has a scene.
     pub has_scene: bool,
 }
 

@@ -17,7 +17,7 @@ use thiserror::Error;
 /// Version of the lock file.
 const FORMAT: u32 = 1;
 
-/// What decides the bytes of every texture besides its entry.
+/// Versions that, with its entry, determine the bytes of every texture.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Pinned {
     /// Version of this program.
@@ -30,9 +30,9 @@ pub struct Pinned {
     pub text_encoder: String,
     /// CRC-32 of its files.
     pub text_encoder_crc32: u32,
-    /// What runs the networks.
+    /// Inference back end.
     pub backend: String,
-    /// How prompts are read: [`asperity_language::reading::VERSION`].
+    /// Version of the prompt reader: [`asperity_language::reading::VERSION`].
     pub reader: String,
 }
 
@@ -79,7 +79,7 @@ pub enum LockError {
     Outside {
         /// The lock file.
         file: PathBuf,
-        /// How it leaves.
+        /// Reason why the path is outside.
         outside: Outside,
     },
     /// There is none, and one is asked for.
@@ -93,7 +93,7 @@ pub enum LockError {
     Drift {
         /// The lock file.
         file: PathBuf,
-        /// What differs.
+        /// Differences from the lock.
         drift: Vec<String>,
     },
 }
@@ -216,7 +216,7 @@ impl Lock {
         &self.file
     }
 
-    /// What differs from the lock, a line each; empty where there is no lock.
+    /// Returns the differences from the lock, a line each; empty if there is no lock.
     #[must_use]
     pub fn drift(&self, now: &Pinned) -> Vec<String> {
         let Some(found) = &self.found else {

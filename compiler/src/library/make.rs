@@ -124,7 +124,7 @@ impl<'a> Maker<'a> {
         known.get(&index).cloned()
     }
 
-    /// What is made of it is known.
+    /// Resolves the latents of an entry whose parts are resolved.
     fn found_out(&self, index: usize) -> Result<FromLatents, Failure> {
         let entry = &self.manifest.entries[index];
         let editor = self.editor()?;

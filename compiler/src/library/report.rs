@@ -1,4 +1,4 @@
-//! What a build did.
+//! Build report.
 
 use super::{facts::Facts, shard::Shard};
 use crate::learned::Certainty;
@@ -6,7 +6,7 @@ use asperity_io::shown::{counted, size};
 use serde::Serialize;
 use std::fmt;
 
-/// What a build did.
+/// Report of a build.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Report {
     /// Bytes of the library.
@@ -24,7 +24,7 @@ pub struct Report {
     pub textures: Vec<Row>,
 }
 
-/// One texture.
+/// Report of a texture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Row {
     /// Its name.
@@ -33,7 +33,7 @@ pub struct Row {
     pub source: &'static str,
     /// Its key in the cache.
     pub key: String,
-    /// Whether the cache had it.
+    /// True if it was taken from the cache.
     pub cached: bool,
     /// Bytes of the asset.
     pub bytes: usize,
@@ -59,7 +59,7 @@ impl Report {
     }
 }
 
-/// One line.
+/// Summary in a line.
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let count = counted(self.textures.len(), "texture", "textures");

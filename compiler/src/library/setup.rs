@@ -19,11 +19,11 @@ use thiserror::Error;
 /// Which networks are run, and where.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Setup {
-    /// What encodes prompts.
+    /// Text encoder.
     pub text_encoder: TextEncoderChoice,
     /// A model folder; the embedded model if `None`.
     pub model: Option<PathBuf>,
-    /// What runs the networks.
+    /// Inference back end.
     pub backend: BackendName,
 }
 
@@ -109,7 +109,7 @@ impl Setup {
         }
     }
 
-    /// What decides the bytes of a texture besides its manifest.
+    /// Returns the versions that, with its manifest, determine the bytes of a texture.
     ///
     /// # Errors
     /// Where a file cannot be read.

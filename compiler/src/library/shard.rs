@@ -10,8 +10,8 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// Whether a texture is in the part, by its place in the order of names. Neighbours go to
-    /// different parts, so that families of alike names are shared out.
+    /// Returns true if a texture is in the part, by its place in the order of names. Neighbours go to different parts,
+    /// which spreads families of similar names.
     #[must_use]
     pub fn holds(self, place: usize) -> bool {
         place % self.count == self.index - 1

@@ -44,7 +44,7 @@ pub(super) struct Slot {
 }
 
 impl Spill {
-    /// One whose temporary file, if it needs any, lies in a folder; in that of the system if `None`.
+    /// Creates an empty spill whose temporary file, if needed, lies in a folder; in that of the system if `None`.
     pub(super) fn new(folder: Option<&Path>) -> Self {
         let file = match folder {
             Some(folder) => tempfile::spooled_tempfile_in(IN_MEMORY, folder),
@@ -119,7 +119,7 @@ impl Packed {
         self.len
     }
 
-    /// Whether it has no texture.
+    /// Returns true if it has no texture.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.slots.is_empty()

@@ -41,7 +41,7 @@ const ROOM: f64 = 0.999;
 /// Frequencies that the power of a model with zeros is averaged over.
 const POINTS: usize = 2048;
 
-/// What the ceiling made of the gains.
+/// Gain limits of a device, and their effect on the gains.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Ceiling {
     /// Continuous force of the device, N.
@@ -57,7 +57,7 @@ pub struct Ceiling {
 }
 
 impl Ceiling {
-    /// Whether a gain was lowered.
+    /// Returns true if a gain was lowered.
     #[must_use]
     pub fn lowers(&self) -> bool {
         self.vibration < 1.0 || self.taps < 1.0
@@ -114,7 +114,7 @@ fn taps(texture: &TextureModel, continuous_n: f64) -> f64 {
     taps
 }
 
-/// What takes `asked` to `most`; 1 where it is within already.
+/// Returns the factor that reduces `asked` to `most`; 1 if it is within.
 fn factor(most: f64, asked: f64) -> f64 {
     if asked > most {
         ROOM * most / asked

@@ -47,7 +47,7 @@ pub enum PipelineError {
 }
 
 impl PipelineError {
-    /// Whether the texture rings without bound in motion, which stabilising mends.
+    /// Returns true if the texture rings without bound in motion, which stabilising mends.
     #[must_use]
     pub fn rings(&self) -> bool {
         use VerifyError::{Tick, Unstable};

@@ -3,8 +3,8 @@
 use serde_json::{Map, Value, json};
 use std::{fmt, time::Duration};
 
-/// What tells the time, as the time since any moment. The default stands still, so that whatever
-/// runs where there is no clock takes no time; whoever has one passes it in.
+/// Clock: the time since an arbitrary origin. The default stands still, so that passes take no time where there is no
+/// clock; callers that have one pass it in.
 #[derive(Clone, Copy)]
 pub struct Clock(pub fn() -> Duration);
 
@@ -40,13 +40,13 @@ pub enum Pass {
     Text,
     /// A latent becomes a model.
     Decode,
-    /// What one modality lacks is decoded from the other.
+    /// A missing modality is decoded from the other.
     Complete,
     /// The models are converted to another rate.
     Rerate,
     /// The models are moved towards white noise.
     Stabilise,
-    /// What the fidelity does not ask for is left out.
+    /// The model is reduced to the fidelity.
     Reduce,
     /// The gains are lowered to what the device can hold.
     Ceiling,

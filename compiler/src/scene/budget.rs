@@ -1,4 +1,4 @@
-//! What a scene may cost, and which fidelity each texture gets.
+//! Cost budget of a scene, and the choice of each texture's fidelity.
 
 use super::{fidelity::Candidate, target::Target};
 use thiserror::Error;
@@ -6,7 +6,7 @@ use thiserror::Error;
 /// Share of a target's clocks that a tick may take unless told otherwise.
 pub const DEFAULT_SHARE: f64 = 0.5;
 
-/// What a scene may cost.
+/// Cost budget of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Budget {
     /// Where the scene runs. Without a target, instructions are counted and not limited.
@@ -18,7 +18,7 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// Whether it limits nothing.
+    /// Returns true if it limits nothing.
     #[must_use]
     pub fn is_unlimited(&self) -> bool {
         self.target.is_none() && self.bytes.is_none()

@@ -26,11 +26,11 @@ use rayon::prelude::*;
 pub struct Built {
     /// The library.
     pub bytes: Vec<u8>,
-    /// How the budget was spent.
+    /// Use of the budget.
     pub report: Report,
     /// The time of every pass, on all threads together.
     pub timings: Timings,
-    /// What a user should be told.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
 }
 
@@ -112,7 +112,7 @@ pub fn build(
     })
 }
 
-/// What a search over fidelities begins with.
+/// Resets an entry to the start of the fidelity search: full fidelity, unless stated, and no preview.
 fn whole(entry: &mut Entry) {
     let options = &mut entry.options;
     options.request.preview_px = None;
@@ -121,7 +121,7 @@ fn whole(entry: &mut Entry) {
     }
 }
 
-/// What was made of every texture, or what went wrong with the first that failed.
+/// Collects the results of all textures, or the first error.
 fn gathered<T, E: Diagnostic + Send + Sync + 'static>(
     order: &[&Entry],
     made: Vec<(Result<T, E>, Pipeline)>,

@@ -1,4 +1,4 @@
-//! What a tick costs on a processor, as far as it depends on the texture and the scene.
+//! Cost of a tick on a processor, as far as it depends on the texture and the scene.
 
 use asperity_formats::Solid;
 use asperity_texture::model::{ModelGrid, Numerator, TextureModel};
@@ -9,17 +9,17 @@ use asperity_texture::model::{ModelGrid, Numerator, TextureModel};
 pub(super) struct Cost {
     /// Name of the processor.
     pub(super) processor: &'static str,
-    /// What every tick takes.
+    /// Cost of every tick.
     pub(super) base: f64,
-    /// What a pole adds.
+    /// Cost per pole.
     pub(super) pole: f64,
-    /// What a zero adds that is mixed and converted; 1 + z⁻¹ costs nothing.
+    /// Cost per zero that is mixed and converted; 1 + z⁻¹ costs nothing.
     pub(super) zero: f64,
-    /// What a triangle adds.
+    /// Cost per triangle.
     pub(super) triangle: f64,
-    /// What the texture's law of friction adds.
+    /// Cost of the texture's law of friction.
     pub(super) law: f64,
-    /// What the distance to a plane, a sphere and a box adds.
+    /// Cost of the distance to a plane, a sphere and a box.
     pub(super) surfaces: [f64; 3],
     /// The most that the sum is above a count, percent.
     pub(super) above_percent: f64,
@@ -63,7 +63,7 @@ impl Cost {
     }
 }
 
-/// What the cost of a texture depends on: poles, zeros, triangles and laws of friction (0 or 1).
+/// Returns the counts that the cost of a texture depends on: poles, zeros, triangles and laws of friction (0 or 1).
 pub(super) fn sizes(texture: &TextureModel) -> [usize; 4] {
     let grid = &texture.grid;
     let laws = usize::from(texture.friction.law.is_some());

@@ -39,7 +39,7 @@ pub struct SurfaceEntry {
     pub texture: usize,
 }
 
-/// What a scene has besides its textures. Strange keys are faults of the manifest.
+/// Keys of a scene besides its textures. Unknown keys are faults of the manifest.
 #[derive(Debug, Deserialize)]
 struct RawScene {
     #[serde(default = "default_rate")]
@@ -230,7 +230,7 @@ impl Furnished {
     }
 }
 
-/// Whether the list of surfaces is one table, in single brackets.
+/// Returns true if the list of surfaces is a single table, in single brackets.
 fn is_single(text: &str) -> bool {
     let Ok(top) = DeTable::parse(text) else {
         return false;

@@ -14,18 +14,18 @@ pub struct SceneError {
     pub file: PathBuf,
     /// Path of the field, e.g. `surface[1].texture`; empty for the file itself.
     pub field: String,
-    /// What is wrong.
+    /// The fault.
     pub problem: SceneProblem,
 }
 
-/// What is wrong with a scene.
+/// Fault of a scene.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SceneProblem {
     /// It is not TOML, or a field is missing, unknown or of another type.
     #[error("{0}")]
     Syntax(TomlError),
-    /// One table in single brackets in a list.
+    /// A table in single brackets in place of a list.
     #[error("{0}: one table in single brackets, but a list of tables is expected")]
     Single(&'static str),
     /// The scene has no surface.
@@ -37,9 +37,9 @@ pub enum SceneProblem {
     /// A surface wears a texture that the scene does not have.
     #[error("no texture {wanted:?}; the scene has {known:?}")]
     UnknownTexture {
-        /// What was asked for.
+        /// Requested name.
         wanted: String,
-        /// What there is.
+        /// Known names.
         known: Vec<String>,
     },
     /// The surface has no solid, or several.
@@ -78,7 +78,7 @@ pub enum SceneProblem {
         name: String,
         /// The fewest it takes.
         least: u64,
-        /// What it may take.
+        /// Budget, instructions per tick.
         budget: u64,
         /// Where.
         target: Target,
@@ -88,7 +88,7 @@ pub enum SceneProblem {
     Bytes {
         /// The fewest bytes.
         least: u64,
-        /// What it may take.
+        /// Budget, bytes.
         budget: u64,
         /// Textures in it.
         textures: usize,

@@ -1,4 +1,4 @@
-//! What a texture costs at each fidelity, and which fidelities are worth having.
+//! Cost of a texture at each fidelity, and the fidelities worth considering.
 
 use super::{
     cost::{Surfaces, zeros},

@@ -1,4 +1,4 @@
-//! How the budget was spent.
+//! Report on the use of the budget.
 
 use super::{budget::Budget, description::Description, fidelity::Candidate, target::Target};
 use crate::library::manifest::Entry;
@@ -6,12 +6,12 @@ use asperity_io::shown::{counted, size};
 use serde::Serialize;
 use std::fmt;
 
-/// How the budget was spent.
+/// Use of the budget.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Report {
     /// Processor whose instructions are counted.
     pub processor: String,
-    /// What the instructions were limited by.
+    /// Target that limits the instructions.
     pub target: Option<String>,
     /// Rate of the servo loop, Hz.
     pub servo_rate_hz: f64,
@@ -21,8 +21,7 @@ pub struct Report {
     pub instructions_budget: Option<u64>,
     /// Instructions of the costliest texture's tick.
     pub instructions: u64,
-    /// How far the counts of instructions may be above what was measured, percent. They are never
-    /// below.
+    /// Largest excess of the counts of instructions over the measured ones, percent. They are never below.
     pub instructions_above_percent: f64,
     /// Bytes the library may take.
     pub bytes_budget: Option<u64>,
@@ -36,7 +35,7 @@ pub struct Report {
     pub unused: Vec<String>,
 }
 
-/// What was kept of a texture, and what it costs.
+/// Fidelity and cost of a texture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Row {
     /// Its name.

@@ -28,7 +28,7 @@ pub const KIND: Kind = Kind {
     preview: false,
 };
 
-/// What can be imported.
+/// Formats that can be imported.
 const WANTED: &str = "a HaTT material, a model, AHAP, .haptic or HJIF";
 
 /// A file of no format that is known.
@@ -42,7 +42,7 @@ impl Diagnostic for Unknown {
     }
 }
 
-/// What a file is imported as.
+/// Importer of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Imported {
     /// A material of the Penn Haptic Texture Toolkit.
@@ -54,8 +54,8 @@ pub enum Imported {
 }
 
 impl Imported {
-    /// What a file of this format and name is imported as; `None` for one that is not. What is damaged is taken for what
-    /// it is called: the reader of that knows best why it is refused.
+    /// Returns the importer for a file of this format and name; `None` if there is none. A damaged file is identified
+    /// by its name: the reader of that format gives the best reason for the refusal.
     #[must_use]
     pub fn of(file: &Path, found: Option<Format>) -> Option<Self> {
         let extension = file.extension().unwrap_or_default();
@@ -100,7 +100,7 @@ impl Imported {
         }
     }
 
-    /// What `asperity import` asks of such a file where a user states nothing.
+    /// Returns the default request of `asperity import` for such a file.
     #[must_use]
     pub fn request(self) -> Request {
         Request {

@@ -10,19 +10,19 @@ use std::{path::Path, sync::Arc};
 pub struct Kind {
     /// The key.
     pub key: &'static str,
-    /// What its value is.
+    /// Type of its value.
     pub operand: Operand,
     /// The source of a value.
     pub open: fn(&Stated<'_>) -> Result<Arc<dyn ManifestSource>, Failure>,
     /// Keys of a texture that do not go with it: `texture`, `seed`, `edit` and other options.
     pub refuses: &'static [&'static str],
-    /// How much is kept unless the manifest says so.
+    /// Default fidelity.
     pub fidelity: Fidelity,
-    /// Whether a preview is drawn unless the manifest says so.
+    /// True if a preview is drawn by default.
     pub preview: bool,
 }
 
-/// What the value of a key is.
+/// Type of a key's value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Operand {
     /// A text.
@@ -33,7 +33,7 @@ pub enum Operand {
     Folder,
 }
 
-/// What a manifest states of a source.
+/// Entry of a source in a manifest.
 #[derive(Debug, Clone, Copy)]
 pub struct Stated<'a> {
     /// The value of its key.

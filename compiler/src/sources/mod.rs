@@ -1,4 +1,4 @@
-//! What a texture can be made from: words, recordings, effects of other tools, a model of your own, a formula.
+//! Sources of a texture: words, recordings, effects of other tools, a model of your own, a formula.
 //!
 //! A source is a type that implements [`Source`], in a file or a folder of its own. It reads its input and models the
 //! texture; the [driver](crate::driver) does what all of them have in common. A line in the [`Registry`] lets manifests
@@ -61,7 +61,7 @@ use thiserror::Error;
 /// The origin of a texture, which it reads and models. [`driver::compile`](crate::driver::compile) does
 /// what is the same for all of them.
 pub trait Source: Send + Sync {
-    /// What a message begins with if its texture does not pass: mostly its file.
+    /// Returns the prefix of error messages: mostly its file.
     fn origin(&self) -> String {
         String::new()
     }
@@ -71,7 +71,7 @@ pub trait Source: Send + Sync {
         Vec::new()
     }
 
-    /// Whether it needs the learned model, which takes a while to load.
+    /// Returns true if it needs the learned model, which takes a while to load.
     fn needs_model(&self) -> bool {
         false
     }
@@ -104,18 +104,18 @@ pub trait ManifestSource: Source + fmt::Debug {
     fn key(&self, parts: Parts, tools: &Tools<'_>) -> Result<Parts, Failure>;
 }
 
-/// What sources may use besides their files.
+/// Resources available to sources besides their files.
 #[derive(Clone, Copy, Default)]
 pub struct Tools<'a> {
     /// The learned model, which decodes latents and completes what was not recorded.
     pub model: Option<&'a LearnedModel>,
-    /// What reads prompts.
+    /// Compiler of prompts.
     pub prompt_compiler: Option<&'a PromptCompiler>,
     /// A path and its bytes, where they are in memory already: the file is not read then, and need not be there.
     pub given: Option<(&'a Path, &'a [u8])>,
     /// Libraries that stay open while textures are taken of them.
     pub libraries: Option<&'a OpenLibraries>,
-    /// What passes are timed by.
+    /// Clock that times the passes.
     pub clock: Clock,
     /// Set, by another thread, once no more is wanted: the next texture is then refused.
     pub stop: Option<&'a AtomicBool>,
@@ -132,7 +132,7 @@ impl<'a> Tools<'a> {
         }
     }
 
-    /// What reads prompts.
+    /// Returns the compiler of prompts.
     ///
     /// # Errors
     /// Where none was given.
@@ -202,19 +202,19 @@ pub struct SourceOutput {
     /// The asset, if there is one already. It is taken as it is, but for its name: nothing is
     /// reduced, lowered or measured again.
     pub asset: Option<Vec<u8>>,
-    /// What the asset is measured against; if `None`, the reduction alone says what it cost.
+    /// Reference for the compile error; if `None`, the error is that of the reduction alone.
     pub truth: Option<ErrorReference>,
-    /// What becomes of it if it rings.
+    /// Treatment of a texture that rings.
     pub ringing: Ringing,
-    /// What the asset remembers, so that it can be mixed and edited.
+    /// Edit memory of the asset, so that it can be mixed and edited.
     pub memory: Option<Memory>,
     /// A picture that was made elsewhere, as PNG, in the place of a preview.
     pub picture: Option<Vec<u8>>,
-    /// How well what a prompt said is known.
+    /// Certainty of the prompt's interpretation.
     pub certainty: Option<Certainty>,
-    /// What a user should be told.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
-    /// What the source found besides.
+    /// Additional findings of the source.
     pub findings: Option<Arc<dyn Findings>>,
 }
 

@@ -1,4 +1,4 @@
-//! What a texture looks like to Stable Diffusion, from an ONNX folder that the user brings.
+//! Pictures of a texture by Stable Diffusion, from an ONNX folder that the user brings.
 //!
 //! The picture follows from the prompt alone: unlike [`preview`](super::preview), it knows nothing
 //! of how the texture feels.
@@ -46,7 +46,7 @@ pub enum PictureError {
     Network {
         /// The file.
         file: PathBuf,
-        /// What the back end says.
+        /// Message of the back end.
         message: String,
         /// Which it is.
         backend: BackendName,
@@ -86,22 +86,22 @@ impl Diagnostic for PictureError {
     }
 }
 
-/// What is asked of a model.
+/// Picture options.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
-    /// What the picture shows.
+    /// Prompt.
     pub prompt: String,
-    /// What it does not show; may be empty.
+    /// Negative prompt; may be empty.
     pub negative: String,
     /// Steps from noise to the picture.
     pub steps: usize,
-    /// How far each step goes towards the prompt; 1 leaves the negative prompt out.
+    /// Guidance scale: the length of each step towards the prompt; 1 leaves the negative prompt out.
     pub guidance: f32,
-    /// How steps are taken.
+    /// Sampling method.
     pub method: Method,
     /// Seed of the noise.
     pub seed: u64,
-    /// Whether the picture repeats in both directions.
+    /// True if the picture repeats in both directions.
     pub tile: bool,
 }
 

@@ -1,5 +1,5 @@
-//! What a person looks at or hears: an asset's contents, its sheet, a picture of the surface,
-//! strokes and taps, a rendered trajectory.
+//! Visual and audible views: an asset's contents, its sheet, a picture of the surface, strokes and taps, a rendered
+//! trajectory.
 
 pub mod diffusion;
 pub mod inspect;

@@ -1,4 +1,4 @@
-//! What a texture looks like: drawn by `asperity-preview` from what an asset says about it.
+//! Preview of a texture: drawn by `asperity-preview` from the contents of an asset.
 //!
 //! The prompt, or else the name, and the nearest materials, which are the anchors of its friction,
 //! decide what is drawn. The level, the spectrum, the friction and the taps change its grain, depth
@@ -134,7 +134,7 @@ pub fn stored(bytes: &[u8]) -> Result<Stored, PreviewError> {
     Ok(Stored { width, height, rgb })
 }
 
-/// What of the feel is seen; `None` for a texture without vibration.
+/// Returns the visible part of the feel; `None` for a texture without vibration.
 fn feel(texture: &TextureModel) -> Option<Feel> {
     let attributes = attributes::of(texture);
     let interior = texture.grid.vertices.iter();

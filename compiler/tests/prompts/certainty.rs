@@ -1,4 +1,4 @@
-//! How often what is said to be known, close or a guess comes out as a person rated it.
+//! Agreement of known, close and guessed prompts with a person's ratings.
 
 use super::PROMPTS;
 use asperity::{learned::Certainty, model::attributes};

@@ -1,4 +1,4 @@
-//! One modality decides the other.
+//! Completion of one modality from the other.
 
 use super::PROMPTS;
 use asperity::{

@@ -89,7 +89,7 @@ fn lines(text: &str) -> Vec<(&str, &str, Vec<Claim>)> {
         .collect()
 }
 
-/// How many of each kind are right, and of how many.
+/// Counts the correct cases of each kind, and all of them.
 fn kinds<'a>(judged: &[(&'a str, bool)]) -> BTreeMap<&'a str, [usize; 2]> {
     let mut kinds: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
     for (kind, right) in judged {

@@ -1,4 +1,4 @@
-//! What a prompt becomes with the shipped model, on the portable back end.
+//! Compiled prompts of the shipped model, on the portable back end.
 
 mod certainty;
 mod clip;

@@ -1,4 +1,4 @@
-//! What modifiers do to a material, and which prompts are reported as guesses.
+//! Effects of modifiers on a material, and prompts that are reported as guesses.
 
 use super::PROMPTS;
 use asperity::learned::Certainty;

@@ -1,4 +1,4 @@
-//! What is read of prompts, of each kind of rule a few.
+//! Readings of prompts, a few for each kind of rule.
 
 use super::PROMPTS;
 use asperity::sources::prompt::reading::{Reading, Role};

@@ -16,8 +16,7 @@ use rayon::prelude::*;
 use sha2::{Digest as _, Sha256};
 use std::{cmp::Ordering, collections::BTreeMap, fs, path::PathBuf};
 
-/// What is scored, and the least share of the sets that are looked at in a sample; `docs/figures/sentences_*.toml` hold the
-/// whole sets exactly.
+/// Scores, and the minimum share of each in a sample; `docs/figures/sentences_*.toml` hold the whole sets exactly.
 const LEAST_SHARES: [(&str, f64); 6] = [
     ("sentences that name what is touched", 0.7),
     ("denials", 0.8),
@@ -44,12 +43,12 @@ fn felt(prompt: &str) -> Attributes {
     attributes::of(&PROMPTS.texture(prompt).expect(prompt))
 }
 
-/// Whether two prompts feel the same.
+/// Returns true if two prompts feel the same.
 fn same(prompt: &str, bare: &str) -> bool {
     distance(&felt(prompt), &felt(bare)) <= 1.0
 }
 
-/// Whether a prompt is said to name nothing that is touched.
+/// Returns true if a prompt is rated as naming nothing that is touched.
 fn none(prompt: &str) -> bool {
     PROMPTS.project(prompt).expect(prompt).certainty == Certainty::NoContact
 }
@@ -172,7 +171,7 @@ fn list(set: &str, file: &str) -> Vec<String> {
     lines(if set == "sealed" { "second" } else { set }, file)
 }
 
-/// What holds of the sets: each claim with the prompts that it holds for, of all.
+/// Scores the sets: each claim with all its prompts, and whether it holds for them.
 fn scores() -> Vec<(&'static str, Vec<(String, bool)>)> {
     let mut all = sets().iter().map(|set| score(set));
     let mut scores = all.next().expect("a set");
@@ -184,7 +183,7 @@ fn scores() -> Vec<(&'static str, Vec<(String, bool)>)> {
     scores
 }
 
-/// What holds of a set: each claim with the prompts that it holds for, of all.
+/// Scores a set: each claim with all its prompts, and whether it holds for them.
 fn score(set: &str) -> Vec<(&'static str, Vec<(String, bool)>)> {
     let sentences: Vec<(String, String, String)> = lines(set, "sentences.tsv")
         .iter()

@@ -1,4 +1,4 @@
-//! What the words of a prompt do.
+//! Effects of the words of a prompt.
 
 use super::PROMPTS;
 use asperity::{

@@ -3,7 +3,7 @@
 use super::pixels;
 use clap::Args;
 
-/// Whether what is written carries a preview, and of which size.
+/// Preview options: no preview, or its size.
 #[derive(Debug, Args)]
 pub(crate) struct PreviewOptions {
     /// Leave out the preview picture
@@ -21,7 +21,7 @@ impl PreviewOptions {
     }
 }
 
-/// How a command reports.
+/// Report options.
 #[derive(Debug, Args)]
 pub(crate) struct ReportOptions {
     /// Print JSON

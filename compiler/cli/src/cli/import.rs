@@ -62,7 +62,7 @@ pub(crate) struct ImportRecording {
     /// The asset to write; `-` is standard output
     #[arg(short, long)]
     pub(crate) output: PathBuf,
-    /// How much to keep: everything, as little as stays within 0.5 dB, or this AR order
+    /// Model detail to keep: everything, as little as stays within 0.5 dB, or this AR order
     #[arg(long, default_value = "auto", value_name = "full|auto|ORDER")]
     pub(crate) fidelity: Fidelity,
     /// Sample rate of the AR models, Hz; use the rate of your servo loop [default: 1000]
@@ -105,13 +105,13 @@ Examples:
   asperity import hatt hatt/models -o hatt.aspl --fidelity auto"
 )]
 pub(crate) struct ImportHatt {
-    /// One `Models_<name>.xml`, or a folder of them
+    /// A `Models_<name>.xml` file, or a folder of them
     pub(crate) input: PathBuf,
-    /// One asset (.asp), a folder for one asset per material, or a library (.aspl); `-` is standard
-    /// output: a file is then written as an asset, a folder as a library
+    /// An asset (.asp), a folder for one asset per material, or a library (.aspl); `-` is standard output: a file is
+    /// then written as an asset, a folder as a library
     #[arg(short, long)]
     pub(crate) output: PathBuf,
-    /// How much to keep: everything, as little as stays within 0.5 dB, or this AR order
+    /// Model detail to keep: everything, as little as stays within 0.5 dB, or this AR order
     #[arg(long, default_value = "full", value_name = "full|auto|ORDER")]
     pub(crate) fidelity: Fidelity,
     /// Decode taps from the AR grid with the learned model instead of synthesising them
@@ -147,7 +147,7 @@ pub(crate) struct ImportModel {
     /// The asset to write; `-` is standard output
     #[arg(short, long)]
     pub(crate) output: PathBuf,
-    /// How much to keep: everything, as little as stays within 0.5 dB, or this AR order
+    /// Model detail to keep: everything, as little as stays within 0.5 dB, or this AR order
     #[arg(long, default_value = "full", value_name = "full|auto|ORDER")]
     pub(crate) fidelity: Fidelity,
     /// Sample rate of the AR models, Hz; use the rate of your servo loop [default: the file's]

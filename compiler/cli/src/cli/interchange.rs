@@ -62,7 +62,7 @@ pub(crate) struct Export {
     /// Width and height of the pictures in a gltf export, in pixels, 64 to 1024
     #[arg(long, value_name = "PX", default_value_t = preview::SIZE, value_parser = pixels)]
     pub(crate) size: u32,
-    /// One texture of a library, by name or index from 0
+    /// Texture of a library, by name or zero-based index
     #[arg(long, visible_alias = "name", value_name = "NAME|INDEX")]
     pub(crate) texture: Option<String>,
     /// Symbol of the array in c-array and rust [default: asperity_image_ and the name]
@@ -115,7 +115,7 @@ pub(crate) struct ImportEffects {
     /// Coefficient of friction
     #[arg(long, default_value_t = 0.5, value_parser = |text: &str| within(text, &ranges::MU))]
     pub(crate) mu: f32,
-    /// How much to keep: everything, as little as stays within 0.5 dB, or this AR order
+    /// Model detail to keep: everything, as little as stays within 0.5 dB, or this AR order
     #[arg(long, default_value = "auto", value_name = "full|auto|ORDER")]
     pub(crate) fidelity: Fidelity,
     /// Sample rate of the AR models, Hz; use the rate of your servo loop [default: 1000]

@@ -39,7 +39,7 @@ pub(crate) struct Plot {
     /// The PNG to write; `-` is standard output
     #[arg(short, long)]
     pub(crate) output: PathBuf,
-    /// One texture of a library, by name or index from 0
+    /// Texture of a library, by name or zero-based index
     #[arg(long, value_name = "NAME|INDEX")]
     pub(crate) texture: Option<String>,
     /// Print JSON
@@ -74,7 +74,7 @@ pub(crate) struct Render {
     /// Rate of the servo loop, 1 to 20 times that of the texture [default: the texture's]
     #[arg(long, value_name = "HZ")]
     pub(crate) rate: Option<f32>,
-    /// One texture of a library, by name or index from 0
+    /// Texture of a library, by name or zero-based index
     #[arg(long, value_name = "NAME|INDEX")]
     pub(crate) texture: Option<String>,
     /// Print JSON
@@ -126,7 +126,7 @@ pub(crate) struct Preview {
     /// Seed of the noise [default: the texture's]
     #[arg(long, value_name = "N", requires = "diffusion")]
     pub(crate) seed: Option<u64>,
-    /// One texture of a library, by name or index from 0
+    /// Texture of a library, by name or zero-based index
     #[arg(long, visible_alias = "name", value_name = "NAME|INDEX")]
     pub(crate) texture: Option<String>,
     /// Print JSON
@@ -153,10 +153,10 @@ pub(crate) struct Listen {
     /// The sound to write, a 16-bit WAV at 44.1 kHz; `-` is standard output
     #[arg(short, long)]
     pub(crate) output: PathBuf,
-    /// One stroke at this speed, mm/s: 1 to 1000 [with --force alone: 100]
+    /// Speed of a single stroke, mm/s: 1 to 1000 [with --force alone: 100]
     #[arg(long, value_name = "MM_S", value_parser = |text: &str| within(text, &ranges::SPEED_MM_S))]
     pub(crate) speed: Option<f32>,
-    /// One stroke at this normal force, N: 0.05 to 20 [with --speed alone: 1]
+    /// Normal force of a single stroke, N: 0.05 to 20 [with --speed alone: 1]
     #[arg(long, value_name = "N", value_parser = |text: &str| within(text, &ranges::FORCE_N))]
     pub(crate) force: Option<f32>,
     /// Render taps, and no stroke unless --speed or --force is given
@@ -168,7 +168,7 @@ pub(crate) struct Listen {
     /// Rate of the servo loop, 1 to 20 times that of the texture [default: the texture's]
     #[arg(long, value_name = "HZ")]
     pub(crate) rate: Option<f32>,
-    /// One texture of a library, by name or index from 0
+    /// Texture of a library, by name or zero-based index
     #[arg(long, visible_alias = "name", value_name = "NAME|INDEX")]
     pub(crate) texture: Option<String>,
     /// Print JSON

@@ -91,7 +91,7 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
     job.finish(&compiled, json, &text, &words)
 }
 
-/// What to try with a texture.
+/// Returns suggested follow-up commands for an asset.
 fn next(asset: &Path) -> String {
     let quoted = |path: &Path| shell_word(&display(path).to_string()).into_owned();
     let beside = |extension: &str| quoted(&asset.with_extension(extension));

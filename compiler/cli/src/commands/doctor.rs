@@ -15,7 +15,7 @@ use asperity_io::{
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
-/// What was looked for, whether it was found, and what to do where it was not.
+/// Result of a single check, with a remedy if it failed.
 struct Finding {
     what: &'static str,
     found: bool,

@@ -41,7 +41,7 @@ impl Diagnostic for ManyIntoOne {
     }
 }
 
-/// One model was to be written of several materials, or of a library.
+/// A single model was requested for several materials, or for a library.
 #[derive(Debug, Error)]
 #[error("{path}: --emit-model needs one material as the input and one asset as the output", path = path.display())]
 struct NoSingleModel {
@@ -67,7 +67,7 @@ enum Target {
 }
 
 impl Target {
-    /// What the arguments mean, for a command that reads `inputs`.
+    /// Resolves the target from the arguments, for a command that reads `inputs`.
     fn open(args: &ImportHatt, materials: usize, inputs: &[PathBuf]) -> Result<Self, Failures> {
         let output = &args.output;
         let extension = output
@@ -213,7 +213,7 @@ fn packed(imported: &[Compiled]) -> Result<Vec<u8>, Failures> {
     pack::encode(&named).map_err(one)
 }
 
-/// One line a material, and of several a summary.
+/// Formats a line per material and, for several materials, a summary.
 fn figures(imported: &[Compiled]) -> String {
     let mut text = String::new();
     for material in imported {

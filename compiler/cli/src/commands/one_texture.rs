@@ -1,4 +1,4 @@
-//! What every command does that compiles one texture: open the outputs, compile, write, report.
+//! Shared steps of all commands that compile a single texture: open the outputs, compile, write, report.
 
 use super::{outputs::TextureOutputs, timings};
 use asperity::{
@@ -20,7 +20,7 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// What is written and printed of a texture.
+/// Requested outputs of a texture.
 pub(super) struct Wanted<'a> {
     /// The asset.
     pub(super) output: &'a Path,
@@ -30,9 +30,9 @@ pub(super) struct Wanted<'a> {
     pub(super) plot: Option<&'a Path>,
     /// The report, as JSON.
     pub(super) report: Option<&'a Path>,
-    /// Whether the report is printed as JSON.
+    /// True if the report is printed as JSON.
     pub(super) json: bool,
-    /// Whether the time of every pass is printed.
+    /// True if the time of every pass is printed.
     pub(super) timings: bool,
 }
 

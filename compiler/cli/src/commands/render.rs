@@ -16,7 +16,7 @@ use asperity_io::{
 use serde_json::json;
 use std::io::BufWriter;
 
-/// What the trajectory goes over: the surfaces of a scene, or a plane with one texture.
+/// Target of the trajectory: the surfaces of a scene, or a plane with a single texture.
 enum Felt<'a> {
     Scene(Library<'a>),
     Texture(Box<Asset<'a>>),

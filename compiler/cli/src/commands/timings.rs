@@ -1,4 +1,4 @@
-//! How long each pass took, for those who ask.
+//! Pass timings, printed on request.
 
 use asperity::pipeline::Pipeline;
 use asperity_console::Console;

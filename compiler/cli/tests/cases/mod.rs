@@ -16,7 +16,7 @@ use std::{
     process::Command,
 };
 
-/// What checks a case: its folder, and one to write into.
+/// A check of a case.
 type Check = fn(&Case);
 
 const CHECKS: [&[(&str, Check)]; 5] = [
@@ -32,7 +32,7 @@ struct Case {
     scratch: tempfile::TempDir,
 }
 
-/// What a command did.
+/// Result of a command.
 struct Run {
     code: Option<i32>,
     stdout: String,
@@ -73,7 +73,7 @@ impl Case {
         }
     }
 
-    /// What importing a file says; it must succeed.
+    /// Imports a file, which must succeed, and returns standard error.
     fn import(&self, kind: &str, name: &str) -> String {
         let file = self.file(name);
         let run = self.asperity(&["import", kind, &file, "-o", "out.asp", "--no-preview"]);

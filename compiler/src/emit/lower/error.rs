@@ -37,11 +37,11 @@ pub enum LowerError {
     /// There is more of something than the format can count.
     #[error("{what}: {found}, an asset holds {limit}")]
     TooMany {
-        /// What there is too much of.
+        /// Name of the counted item.
         what: &'static str,
-        /// How many there are.
+        /// Count found.
         found: usize,
-        /// How many there can be.
+        /// Maximum count.
         limit: usize,
     },
     /// The format refused the parts.

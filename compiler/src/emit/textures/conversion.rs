@@ -3,7 +3,7 @@
 use asperity_formats::Asset;
 use std::fmt::{self, Display, Formatter};
 
-/// How the bytes of a file were changed.
+/// Text conversion that damaged a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Conversion {
     /// Line feeds became CR LF, or CR LF became line feeds.
@@ -32,7 +32,7 @@ impl Display for Conversion {
 const PNG_LF: &[u8] = b"\x89PNG\n\x1a\n";
 /// So many bytes of assets hold a CR LF by chance, but for one file in 3,000.
 const ENOUGH: usize = 1 << 19;
-/// Of so many bytes one is a line feed; chance makes it one of 256.
+/// Largest plausible mean spacing of line feeds, bytes; chance gives 256.
 const LINE: usize = 512;
 /// Most bytes that are read to find the place of one lost CR.
 const TRIED: usize = 1 << 25;
@@ -40,7 +40,7 @@ const TRIED: usize = 1 << 25;
 const LEAST: usize = 256;
 
 impl Conversion {
-    /// What was done to bytes that begin as an asset or a library, and do not parse as one.
+    /// Detects the conversion of bytes that begin as an asset or a library, and do not parse as one.
     pub(super) fn of(bytes: &[u8]) -> Option<Self> {
         let plain = |start: &[u8]| bytes.starts_with(start);
         if plain(b"\xff\xfeA\0S\0P\0") || plain(b"\xfe\xff\0A\0S\0P") {
@@ -69,7 +69,7 @@ impl Conversion {
     }
 }
 
-/// Whether an asset parses again with a CR before one of its line feeds.
+/// Returns true if an asset parses again with a CR inserted before one of its line feeds.
 fn lacks_one(bytes: &[u8]) -> bool {
     let stated = bytes.get(8..12).and_then(|len| len.try_into().ok());
     if stated.map(u32::from_le_bytes) != u32::try_from(bytes.len() + 1).ok() {

@@ -18,7 +18,7 @@ pub struct TexturesError {
     pub path: PathBuf,
     /// The texture of the library at fault, where it is one.
     pub texture: Option<String>,
-    /// What is wrong.
+    /// The fault.
     pub problem: TexturesProblem,
 }
 
@@ -31,7 +31,7 @@ impl std::fmt::Display for Named<'_> {
     }
 }
 
-/// What is wrong with the file.
+/// Fault of a file.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum TexturesProblem {
@@ -62,11 +62,11 @@ pub enum TexturesProblem {
     /// The library has no such texture.
     #[error("no texture {wanted:?}; the file has {}", counted(*count, "texture", "textures"))]
     NoSuchTexture {
-        /// What was asked for.
+        /// Requested name or index.
         wanted: String,
         /// Textures it holds.
         count: usize,
-        /// What may have been meant, in words.
+        /// Suggested spelling, in words.
         suggestion: Option<String>,
     },
 }

@@ -116,7 +116,7 @@ impl Textures {
         }
     }
 
-    /// What a file is, and its length.
+    /// Reads the type and the length of a file.
     fn content(bytes: &mut dyn Bytes) -> Result<(Content, u64), TexturesProblem> {
         let head = part(bytes, 0, library::HEADER_LEN as u64)?;
         let len = bytes
@@ -206,13 +206,13 @@ impl Textures {
         self.index().map(|index| index.version)
     }
 
-    /// Whether it is a library rather than an asset.
+    /// Returns true if it is a library rather than an asset.
     #[must_use]
     pub fn is_library(&self) -> bool {
         self.index().is_some()
     }
 
-    /// Whether it is a library with a scene.
+    /// Returns true if it is a library with a scene.
     #[must_use]
     pub fn has_scene(&self) -> bool {
         self.index().is_some_and(|index| index.scene.is_some())
@@ -326,8 +326,8 @@ impl Textures {
         Ok(bytes)
     }
 
-    /// What `each` finds in every texture, in order, under the name of a library's index or of the
-    /// asset itself. All of them are checked, and a scene, too.
+    /// Returns the results of `each` for every texture, in order, under the name of a library's index or of the asset
+    /// itself. All of them are checked, and a scene, too.
     ///
     /// # Errors
     /// [`TexturesError`] for a failed read and for the first texture that is damaged.
@@ -345,8 +345,8 @@ impl Textures {
         Ok(all)
     }
 
-    /// What `each` finds in some textures, at least one, from the one at `from` on: as many as are in memory together.
-    /// They are looked at in parallel; `start` makes what one thread keeps between them.
+    /// Returns the results of `each` for the textures from `from` on: at least one, and as many as are in memory
+    /// together. They are processed in parallel; `start` creates the state that a thread keeps between them.
     ///
     /// # Errors
     /// As [`each`](Self::each).

@@ -1,4 +1,4 @@
-//! What opens, and what is refused.
+//! Files that open, and files that are refused.
 
 use super::*;
 use crate::{
@@ -55,7 +55,7 @@ fn a_texture_of_a_library_is_found_by_name_and_by_index() {
     assert!(none.is_usage());
 }
 
-/// What comes once, through a pipe or standard input, opens as a file does.
+/// Pipes and standard input open as files do.
 #[test]
 fn an_asset_or_a_library_comes_through_a_reader() {
     let asset = lower(&builtin::texture(), None).unwrap().bytes;

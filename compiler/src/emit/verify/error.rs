@@ -47,7 +47,7 @@ pub enum VerifyError {
         vertex: usize,
         /// RMS log-spectral distance, dB.
         distance_db: f64,
-        /// What is allowed, dB.
+        /// Maximum distance, dB.
         budget_db: f64,
     },
     /// A tick that left the limits, or clamped the vibration.
@@ -55,7 +55,7 @@ pub enum VerifyError {
     Tick {
         /// Index of the tick.
         tick: usize,
-        /// What went wrong.
+        /// Description of the fault.
         what: &'static str,
     },
 }

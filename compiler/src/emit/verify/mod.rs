@@ -29,7 +29,7 @@ use asperity_runtime::{Config, Flags, HostTexture, Output, Renderer, Sample, Sta
 use asperity_texture::model::TextureModel;
 use serde::Serialize;
 
-/// What verification found.
+/// Verification results.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct VerifyReport {
     /// Queries of speed and force.
@@ -138,7 +138,7 @@ fn norm(v: [f32; 3]) -> f32 {
     (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
 }
 
-/// What an output breaks, behind the force of the tick before.
+/// Returns the limit that an output violates, given the force of the previous tick.
 fn broken(output: &Output, previous: [f32; 3], peak_n: f32, step_n: f32) -> Option<&'static str> {
     let force = output.force_n;
     let step = norm(std::array::from_fn(|axis| force[axis] - previous[axis]));

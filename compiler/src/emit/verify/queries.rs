@@ -101,7 +101,7 @@ fn check_queries(
     Ok(largest.into_iter().fold(0.0, f64::max))
 }
 
-/// Whether weights mix that many vertices without leaving what lies between them.
+/// Returns true if the weights are a convex combination of valid vertices, out of `count`.
 fn is_convex(weights: &[f32], vertices: &[u8], count: usize) -> bool {
     let sum: f32 = weights.iter().sum();
     weights.iter().all(|w| (0.0..=1.0).contains(w))

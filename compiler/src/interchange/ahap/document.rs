@@ -18,7 +18,7 @@ pub(super) struct Document {
     pub(super) pattern: List<Item>,
 }
 
-/// One entry of a pattern.
+/// Entry of a pattern.
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "PascalCase")]
 pub(super) struct Item {

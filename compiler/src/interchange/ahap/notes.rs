@@ -1,4 +1,4 @@
-//! What of a file is read otherwise than it was meant, one line a kind: the first place, and how many there are.
+//! Deviations from a file in reading it, a line per kind: the first place, and the count.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ const NAMED: usize = 6;
 /// Characters of a stranger's text that are repeated.
 const QUOTED: usize = 40;
 
-/// What is read otherwise.
+/// Kind of deviation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Note {
     Version,

@@ -12,7 +12,7 @@
 use serde_json::Value;
 use std::f64::consts::TAU;
 
-/// What a file sounds like at a rate, its continuous events and its transients apart.
+/// Rendered signal of a file at a rate, continuous events and transients apart.
 pub(super) struct Played {
     pub(super) continuous: Vec<f64>,
     pub(super) transients: Vec<f64>,

@@ -1,4 +1,4 @@
-//! What an AHAP plays, as Core Haptics plays it.
+//! AHAP playback, as Core Haptics does it.
 
 use super::{
     CONTINUOUS, EVENT_S, INTENSITY, INTENSITY_CONTROL, SHARPNESS, SHARPNESS_CONTROL, TRANSIENT,
@@ -29,7 +29,7 @@ const ENVELOPE: [(&str, f64); 4] = [
     ("Sustained", 1.0),
 ];
 
-/// What the text of a file plays.
+/// Parses the text of a file into a track.
 ///
 /// # Errors
 /// The JSON path of the first field at fault, and what is wrong with it.
@@ -91,14 +91,14 @@ fn time(value: &Scalar, place: impl Fn() -> String, notes: &mut Notes) -> Result
 /// The least value of a control of intensity and of one of sharpness; the largest is 1.
 const LEAST: [f64; 2] = [0.0, -1.0];
 
-/// Whether an identifier is that of intensity, 0, or sharpness, 1.
+/// Returns the index of a control: 0 for intensity, 1 for sharpness.
 fn controlled(id: &Scalar) -> Option<usize> {
     [INTENSITY_CONTROL, SHARPNESS_CONTROL]
         .iter()
         .position(|known| *known == id.text())
 }
 
-/// What applies to all events.
+/// Controls that apply to all events.
 struct Controls {
     intensity: Control,
     sharpness: Control,
@@ -192,7 +192,7 @@ fn curve(
     Ok(part)
 }
 
-/// How much has been read, against what is.
+/// Totals so far, which are limited.
 #[derive(Default)]
 struct Room {
     span_s: f64,

@@ -60,8 +60,8 @@ fn number(draw: &mut Draw, low: f64, high: f64) -> f64 {
     (draw.range(low, high) * 1e3).round() / 1e3
 }
 
-/// One to three continuous events that may overlap, transients, and parameters and curves of both controls in
-/// any order, some of them beyond their range.
+/// Draws one to three continuous events that may overlap, transients, and parameters and curves of both controls in any
+/// order, some of them beyond their range.
 fn random(draw: &mut Draw) -> Value {
     let mut items = Vec::new();
     let mut time = number(draw, 0.0, 0.3);

@@ -29,7 +29,7 @@ struct Metadata {
     description: String,
 }
 
-/// One entry of a pattern.
+/// Entry of a pattern.
 #[derive(Debug, Default, Serialize)]
 #[serde(rename_all = "PascalCase")]
 struct Item {

@@ -1,4 +1,4 @@
-//! What every text encoder has in common.
+//! Common interface of the text encoders.
 
 use asperity_io::diagnostic::Diagnostic;
 use thiserror::Error;
@@ -22,7 +22,7 @@ pub trait TextEncoder: Send + Sync {
     fn encode_all(&self, texts: &[&str]) -> Result<Vec<Encoded>, TextError> {
         texts.iter().map(|text| self.encode(text)).collect()
     }
-    /// Whether it has tokens for a word. An encoder of bytes has them for every word.
+    /// Returns true if it has tokens for a word. An encoder of bytes has them for every word.
     fn reads(&self, word: &str) -> bool {
         let _ = word;
         true
@@ -55,9 +55,9 @@ pub enum TextError {
     Signature {
         /// The input or output.
         field: String,
-        /// What it is.
+        /// Actual signature.
         found: String,
-        /// What it should be.
+        /// Expected signature.
         expected: String,
     },
     /// The bytes of a table of words do not divide into rows.

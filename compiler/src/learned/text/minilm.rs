@@ -138,7 +138,7 @@ impl MiniLm {
 
 /// Characters of the longest word that is cut into pieces; a longer one is unknown.
 const LONGEST_WORD: usize = 100;
-/// What a piece inside a word begins with.
+/// Prefix of a piece inside a word.
 const INSIDE: &str = "##";
 /// The piece that stands for what no piece fits.
 const UNKNOWN: &str = "[UNK]";
@@ -176,7 +176,7 @@ fn normalised(text: &str) -> String {
     normal
 }
 
-/// Whether a character ends a word and is a word of its own, or white space.
+/// Returns true for white space, and for a character that ends a word and is a word of its own.
 fn stands_alone(character: char) -> bool {
     character.is_ascii_punctuation() || character.is_punctuation() || character.is_whitespace()
 }

@@ -30,7 +30,7 @@ const ENDINGS: [(&str, &str); 11] = [
     ("y", ""),
 ];
 
-/// How many of these nouns and verbs have.
+/// Number of leading entries that apply to any noun or verb.
 const INFLECTIONS: usize = 7;
 
 /// Vectors of words, in 8 bits.

@@ -19,7 +19,7 @@ pub(super) struct Record {
 }
 
 impl Record {
-    /// Whether all cells are empty: spreadsheets write such rows below a table.
+    /// Returns true if all cells are empty: spreadsheets write such rows below a table.
     pub(super) fn is_blank(&self) -> bool {
         self.cells.iter().all(|cell| cell.trim().is_empty())
     }

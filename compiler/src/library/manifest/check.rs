@@ -25,7 +25,7 @@ const OWN: [&str; 2] = ["name", "texture"];
 /// Keys of the defaults besides the options.
 const SETUP: [&str; 3] = ["model", "text_encoder", "backend"];
 
-/// Whether a texture has such a key, also in one of its tables.
+/// Returns true if a texture has such a key, also in one of its tables.
 pub(super) fn is_key(key: &str, registry: &Registry) -> bool {
     let own = key.split('.').next().unwrap_or(key);
     OWN.contains(&own) || is_origin(own, registry) || OPTIONS.contains(&own)
@@ -215,7 +215,7 @@ impl Checker<'_> {
         None
     }
 
-    /// Whether a key that is none is spelt much like one of what a texture is made of.
+    /// Returns true if an unknown key looks like a misspelt origin.
     fn has_misspelt_origin(&self, row: &Row) -> bool {
         let mut strangers = row
             .fields
@@ -440,7 +440,7 @@ impl Checker<'_> {
     }
 }
 
-/// What goes with a source.
+/// Defaults of a source, and the keys that it refuses.
 struct GoesWith {
     key: &'static str,
     refuses: &'static [&'static str],
@@ -455,8 +455,7 @@ fn unreadable(error: io::Error) -> InputProblem {
     })
 }
 
-/// What is not stated is as the commands have it. Options of the defaults go to the textures that
-/// can have them.
+/// Fills in the defaults of the commands. Options of `[defaults]` apply to the textures that can have them.
 fn options(stated: &Stated, of: &GoesWith) -> Options {
     let takes = |key: &str| !of.refuses.contains(&key);
     let fidelity = stated.fidelity.filter(|_| takes("fidelity"));
@@ -482,7 +481,7 @@ fn options(stated: &Stated, of: &GoesWith) -> Options {
     }
 }
 
-/// What a prompt begins with, as a name.
+/// Returns the beginning of a prompt as a name.
 fn title(prompt: &str) -> String {
     let plain = prompt.replace(char::is_control, " ");
     let words: Vec<&str> = plain.split_whitespace().collect();

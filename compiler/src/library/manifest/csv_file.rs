@@ -116,7 +116,7 @@ mod tests {
         assert_eq!((blend.len(), blend[1].key.as_str()), (2, "b"));
     }
 
-    /// What spreadsheets write around a table is no fault, and no texture.
+    /// Empty rows and columns, which spreadsheets write around a table, are neither faults nor textures.
     #[test]
     fn blank_rows_and_columns_without_a_name_are_passed_over() {
         let plain = parse("name,prompt\noak,rough oak\nice,wet ice\n").unwrap();

@@ -26,15 +26,15 @@ impl fmt::Display for Place {
 pub struct Entry {
     /// Its name, unique in the library.
     pub name: String,
-    /// What it is made of.
+    /// Origin of the texture.
     pub origin: Origin,
-    /// How it is made.
+    /// Build options.
     pub options: Options,
     /// Where it stands.
     pub place: Place,
 }
 
-/// What a texture is made of. Textures of the manifest are named by their index.
+/// Origin of a texture. Textures of the manifest are referred to by index.
 #[derive(Debug, Clone)]
 pub enum Origin {
     /// A source of its own.
@@ -57,9 +57,9 @@ pub enum Origin {
     },
     /// Parts of other textures.
     Compose {
-        /// What tapping feels like.
+        /// Source of the tap response.
         tap: usize,
-        /// What sliding feels like.
+        /// Source of the sliding vibration.
         slide: usize,
         /// Where friction comes from.
         friction: usize,
@@ -78,7 +78,7 @@ impl Origin {
         }
     }
 
-    /// Whether it needs the learned model.
+    /// Returns true if it needs the learned model.
     #[must_use]
     pub fn is_learned(&self) -> bool {
         match self {
@@ -103,13 +103,13 @@ impl Origin {
     }
 }
 
-/// How a texture is made.
+/// Build options of a texture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
-    /// What is asked of any texture.
+    /// Options common to all textures.
     pub request: Request,
-    /// Whether the manifest states the fidelity, which no budget changes then.
+    /// True if the manifest states the fidelity; no budget changes it then.
     pub keeps_fidelity: bool,
-    /// What is moved after it was decoded.
+    /// Edit applied to the decoded texture.
     pub edit: Edit,
 }

@@ -1,4 +1,4 @@
-//! What is wrong with a manifest, and where.
+//! Faults of a manifest, with their places.
 
 use asperity_io::{
     diagnostic::{Diagnostic, Failure},
@@ -7,7 +7,7 @@ use asperity_io::{
 use std::{fmt, path::PathBuf};
 use thiserror::Error;
 
-/// One fault of a manifest: file, line, key, reason.
+/// Fault of a manifest: file, line, key, reason.
 #[derive(Debug, Error)]
 #[error("{}{}{}{problem}", file.display(), At(*line), Key(key))]
 pub struct ManifestError {
@@ -17,7 +17,7 @@ pub struct ManifestError {
     pub line: Option<usize>,
     /// Path of the key, such as `blend.t`; empty for the row or the file.
     pub key: String,
-    /// What is wrong.
+    /// The fault.
     pub problem: ManifestProblem,
 }
 
@@ -43,11 +43,11 @@ impl fmt::Display for Key<'_> {
     }
 }
 
-/// What to do about a path that leaves the folder of its list.
+/// Remedy for a path that leaves the folder of its list.
 pub(crate) const CONFINED_REMEDY: &str =
     "copy the file next to the manifest, or leave out --confined if you trust its author";
 
-/// What is wrong.
+/// Fault of a manifest.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ManifestProblem {
@@ -69,28 +69,28 @@ pub enum ManifestProblem {
     /// A key that is not known there.
     #[error("no such key; known keys are {known}")]
     UnknownKey {
-        /// What there is.
+        /// Known keys.
         known: String,
-        /// What may have been meant, in words.
+        /// Suggested spelling, in words.
         suggestion: Option<String>,
     },
-    /// One table `[texture]` in a list of textures.
+    /// A single table `[texture]` in place of a list of textures.
     #[error("one table in single brackets, but a list of tables is expected")]
     Single,
     /// A value of another type.
     #[error("must be {wanted}, but is {found}")]
     Type {
-        /// What was wanted.
+        /// Expected type.
         wanted: &'static str,
-        /// What was found.
+        /// Actual type.
         found: &'static str,
     },
     /// A value that is not accepted.
     #[error("{found:?} must be {wanted}")]
     Value {
-        /// What was wanted.
+        /// Accepted values.
         wanted: String,
-        /// What was found.
+        /// The value.
         found: String,
     },
     /// A name that no texture can have.
@@ -99,9 +99,9 @@ pub enum ManifestProblem {
     /// The row has no source, or several.
     #[error("{found}; a texture has one of {known}")]
     Origin {
-        /// What was found.
+        /// Sources found.
         found: String,
-        /// What there is.
+        /// Known sources.
         known: String,
     },
     /// A text that stands for none.
@@ -111,10 +111,10 @@ pub enum ManifestProblem {
     Nothing {
         /// The text.
         text: String,
-        /// What it should be.
+        /// Expected kind of text.
         wanted: &'static str,
     },
-    /// What the source says of its value.
+    /// A value that the source refuses.
     #[error("{0}")]
     Source(Failure),
     /// A key that does not go with the source.
@@ -141,7 +141,7 @@ pub enum ManifestProblem {
     NoSuchTexture {
         /// Its name.
         wanted: String,
-        /// What may have been meant, in words.
+        /// Suggested spelling, in words.
         suggestion: Option<String>,
     },
     /// Blends that are made of each other.
@@ -161,7 +161,7 @@ pub enum ManifestProblem {
     Outside {
         /// The path as it is stated.
         stated: String,
-        /// How it leaves.
+        /// Reason why the path is outside.
         outside: Outside,
     },
     /// A file that is not there.

@@ -46,7 +46,7 @@ struct Values<'t> {
     is_closed: bool,
     /// The line of the first value outside the list.
     outside: Option<usize>,
-    /// Whether a value was read.
+    /// True once a value was read.
     begun: bool,
 }
 
@@ -62,7 +62,7 @@ impl<'t> Values<'t> {
         }
     }
 
-    /// What is wrong with the list around all values, once those are read.
+    /// Returns the fault of the enclosing list, if any, once all values are read.
     fn fault(&self) -> Option<(usize, &'static str)> {
         let outside = |line| (line, "must stand in the list, which is closed before");
         match self.opened {
@@ -140,7 +140,7 @@ impl<'t> Iterator for Values<'t> {
     }
 }
 
-/// One object, whose keys may be dotted.
+/// Parses an object, whose keys may be dotted.
 fn row(content: &str, line: usize, registry: &Registry) -> Result<Row, (usize, String)> {
     let json: Json = serde_json::from_str(content).map_err(|error| {
         // The line within the value is said by the line of the text.
@@ -262,7 +262,7 @@ impl<'de> Visitor<'de> for Any {
     }
 }
 
-/// What stands for a field that is not there.
+/// Placeholder for an absent field.
 const NULL: &str = "null";
 /// Keys of one object at most: each is compared with all before it.
 const MAX_KEYS: usize = 64;

@@ -1,6 +1,7 @@
-//! What tables hold where a value is missing or wrong.
+//! Placeholders that tables hold where a value is missing or wrong.
 
-/// Whether a text is what spreadsheets, databases and scripts write for a cell without a value, or for one with an error.
+/// Returns true if a text is what spreadsheets, databases and scripts write for a cell without a value, or with an
+/// error.
 pub(super) fn is_nothing(text: &str) -> bool {
     const WORDS: [&str; 16] = [
         "na",
@@ -29,13 +30,13 @@ pub(super) fn is_nothing(text: &str) -> bool {
         || WORDS.contains(&core.as_str()) && (core != small || !MARKED.contains(&core.as_str()))
 }
 
-/// Whether a character is neither of a word nor a picture.
+/// Returns true if a character is neither alphanumeric nor a picture.
 fn is_mark(c: char) -> bool {
     !c.is_alphanumeric() && c < '\u{2190}' || matches!(c, 'ー' | '\u{ff01}'..='\u{ff0f}')
 }
 
-/// Whether a text is the error of a spreadsheet's formula: Excel has them in every language, as #REF!, #BEZUG!, #YOK
-/// and #¿NOMBRE?; LibreOffice numbers some.
+/// Returns true if a text is the error of a spreadsheet's formula: Excel localises them, as #REF!, #BEZUG!, #YOK and
+/// #¿NOMBRE?; LibreOffice numbers some.
 pub(super) fn is_error(text: &str) -> bool {
     let text = text.trim();
     let numbered = |name: &&str| {

@@ -33,7 +33,7 @@ pub struct Manifest {
     pub sources: Vec<PathBuf>,
 }
 
-/// What turns prompts into textures, as far as a manifest states it.
+/// Text-to-texture setup, as far as a manifest states it.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Setup {
     /// A model folder.
@@ -47,7 +47,7 @@ pub struct Setup {
 /// Keys at the top that make a manifest a scene.
 const OF_SCENES: [&str; 2] = ["servo_rate_hz", "surface"];
 
-/// Whether a TOML text is a scene rather than a library: it has surfaces, or a servo rate.
+/// Returns true if a TOML text is a scene rather than a library: it has surfaces, or a servo rate.
 #[must_use]
 pub fn is_scene(text: &str) -> bool {
     match toml::de::DeTable::parse(text) {
@@ -129,7 +129,7 @@ fn kind(file: &Path) -> Kind {
     }
 }
 
-/// What is wrong with a key at the top.
+/// Returns the fault of an unexpected top-level key.
 fn top_problem(field: &Field, scene: bool) -> ManifestProblem {
     let wanted = match (field.key.as_str(), &field.value) {
         ("texture", Value::Table(_)) => return ManifestProblem::Single,
@@ -187,7 +187,7 @@ fn syntax(file: &Path) -> Option<Syntax> {
 struct Reader {
     reach: Reach,
     registry: Registry,
-    /// Whether the first file is a scene.
+    /// True if the first file is a scene.
     scene: bool,
     drafts: Vec<Draft>,
     /// Names of all rows, of those with a fault, too.

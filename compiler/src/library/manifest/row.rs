@@ -58,7 +58,7 @@ impl Value {
     }
 }
 
-/// Whether digits are grouped by threes with points: 1.000, 12.500.000.
+/// Returns true if digits are grouped by threes with points: 1.000, 12.500.000.
 fn grouped(text: &str) -> bool {
     let digits = text.trim_start_matches(['+', '-']);
     let mut groups = digits.split('.');
@@ -71,7 +71,7 @@ fn grouped(text: &str) -> bool {
         && groups.all(|group| group.len() == 3 && is_number(group))
 }
 
-/// Whether a spreadsheet showed a number with fewer digits than it has: 1.23457E+11.
+/// Returns true if a spreadsheet showed a number with fewer digits than it has: 1.23457E+11.
 fn rounded(text: &str) -> bool {
     let parts = text.split_once(['e', 'E']);
     parts.is_some_and(|(digits, exponent)| {
@@ -96,7 +96,7 @@ pub(super) struct Field {
 pub(super) struct Row {
     pub(super) line: usize,
     pub(super) fields: Vec<Field>,
-    /// Whether the syntax has texts only, which then also stand for numbers.
+    /// True if the syntax has texts only, which then also stand for numbers.
     pub(super) untyped: bool,
 }
 

@@ -18,7 +18,7 @@ use std::path::Path;
 
 /// Keys of a texture's options.
 pub(super) const OPTIONS: [&str; 6] = ["seed", "fidelity", "rate", "preview", "loudness", "edit"];
-/// What `preview` takes.
+/// Accepted values of `preview`.
 const PREVIEW: &str = "true, false or a size";
 /// Range of `loudness`, dB re 1 N RMS.
 const LOUDNESS_DB: (f64, f64) = (-120.0, 0.0);
@@ -70,8 +70,8 @@ impl Checker<'_> {
         });
     }
 
-    /// Whether the manifest may name a path; a fault where it may not. A folder is checked with
-    /// all that lies in it.
+    /// Returns true if the manifest may name a path, and else reports a fault. A folder is checked with all its
+    /// contents.
     pub(super) fn reaches(&mut self, field: &Field, key: &str, stated: &str, folder: bool) -> bool {
         let (path, seen) = (Path::new(stated), self.folder.join(stated));
         let checked = if folder {
@@ -189,7 +189,7 @@ impl Checker<'_> {
         self.fault(field.line, &key, problem);
     }
 
-    /// One option; whether the key is one.
+    /// Reads an option. Returns true if the key is one.
     pub(super) fn option(&mut self, field: &Field, untyped: bool, stated: &mut Stated) -> bool {
         let key = field.key.as_str();
         match key {

@@ -1,4 +1,4 @@
-//! How far a reduced grid may be from the whole one, and how far it is.
+//! Error budget of a reduced grid, and its distance from the whole grid.
 
 use asperity_texture::{
     model::{
@@ -73,7 +73,7 @@ impl Distances {
         ((!finite.is_empty()).then_some(Self(finite)), silent)
     }
 
-    /// Whether the distances are within [`BUDGET_DB`], with room for rounding.
+    /// Returns true if the distances are within [`BUDGET_DB`], with room for rounding.
     #[must_use]
     pub fn are_within_budget(&self) -> bool {
         let mut tally = Tally::of(self.0.len());
@@ -100,7 +100,7 @@ impl Tally {
         }
     }
 
-    /// Whether the budget still allows another place at this distance, with room for rounding.
+    /// Returns true if the budget still allows another place at this distance, with room for rounding.
     pub(super) fn admits(&mut self, distance_db: f64) -> bool {
         if distance_db <= BUDGET_DB.0 - ROOM_DB {
             return true;
@@ -208,8 +208,8 @@ impl<'a> Reference<'a> {
             .map(Distances)
     }
 
-    /// Whether a grid with the same vertices and triangles stays within the budget. The search
-    /// stops at the first place that decides against it.
+    /// Returns true if a grid with the same vertices and triangles stays within the budget. The search stops at the
+    /// first place that decides against it.
     #[must_use]
     pub fn is_within_budget(&self, grid: &ModelGrid) -> bool {
         debug_assert_eq!(grid.triangles, self.grid.triangles);
@@ -220,7 +220,7 @@ impl<'a> Reference<'a> {
     }
 }
 
-/// Whether the cosines are of frequencies that ascend strictly inside (0, π).
+/// Returns true if the cosines are of frequencies that ascend strictly inside (0, π).
 fn is_ordered(cosines: &[f64]) -> bool {
     let inside = cosines.iter().all(|c| (-1.0..=1.0).contains(c));
     inside && cosines.windows(2).all(|pair| pair[0] > pair[1])

@@ -27,7 +27,7 @@ use order::Fits;
 use serde::Serialize;
 use std::{fmt, str::FromStr};
 
-/// How much of a model an asset keeps.
+/// Fidelity of an asset to its model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fidelity {
     /// Everything.
@@ -67,13 +67,13 @@ impl fmt::Display for Fidelity {
 /// A count before and after.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Change {
-    /// Of the whole texture.
+    /// In the whole texture.
     pub full: usize,
-    /// Of what is kept.
+    /// In the reduced texture.
     pub kept: usize,
 }
 
-/// What was dropped, and what it cost.
+/// Reduction report: omissions and their error.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Report {
     /// Poles.
@@ -125,7 +125,7 @@ impl fmt::Display for Report {
 pub struct Reduction {
     /// The texture.
     pub texture: TextureModel,
-    /// What was dropped.
+    /// Omissions and their error.
     pub report: Report,
 }
 
@@ -167,7 +167,7 @@ pub fn reduce_taps(bank: &TapBank, fidelity: Fidelity) -> TapBank {
     }
 }
 
-/// What a reduced grid is compared with; nothing where everything is kept.
+/// Returns the reference for a reduced grid; `None` at full fidelity.
 fn reference(grid: &ModelGrid, fidelity: Fidelity) -> Option<Reference<'_>> {
     (fidelity != Fidelity::Full)
         .then(|| Reference::new(grid))

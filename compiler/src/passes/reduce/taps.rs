@@ -59,7 +59,7 @@ fn felt(accel_m_s2: &[f64]) -> usize {
         .map_or(1, |last| last + 1)
 }
 
-/// What keeps the impulse of the first `length` samples; `None` where it would be felt.
+/// Returns the factor that preserves the impulse in the first `length` samples; `None` if it would be felt.
 fn scale(accel_m_s2: &[f64], length: usize) -> Option<f64> {
     let kept: f64 = accel_m_s2.get(..length)?.iter().sum();
     let all: f64 = accel_m_s2.iter().sum();

@@ -1,4 +1,4 @@
-//! What `.haptic` and HJIF files give is fixed to the bit: a change of what they share with other formats shows here.
+//! Imports of `.haptic` and HJIF files are fixed to the bit: changes of code shared with other formats show here.
 
 use super::{
     Kind,
@@ -15,7 +15,7 @@ use std::fs;
 
 /// Files of each format that are read.
 const FILES: u64 = 60;
-/// How many of them are compiled.
+/// Number of them that are compiled.
 const COMPILED: u64 = 2;
 
 /// Bits of numbers, hashed.

@@ -25,7 +25,7 @@ use std::path::{Path, PathBuf};
 /// The grid reaches this many times the speed and the force of the stroke.
 const REACH: f64 = 2.0;
 
-/// What a file is.
+/// Format of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// `.haptic` of NiceVibrations.
@@ -72,7 +72,7 @@ impl Kind {
     }
 }
 
-/// What a file of effects does not say.
+/// Parameters that an effect file lacks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
     /// Speed of the stroke, mm/s.
@@ -89,7 +89,7 @@ pub struct Options {
     pub mu: f64,
 }
 
-/// One stroke at 100 mm/s and 1 N; a full scale is 5 m/s² in strokes and 50 m/s² in taps.
+/// A stroke at 100 mm/s and 1 N; a full scale is 5 m/s² in strokes and 50 m/s² in taps.
 impl Default for Options {
     fn default() -> Self {
         Self {
@@ -109,9 +109,9 @@ impl Default for Options {
 pub struct Effects {
     /// The file.
     pub file: PathBuf,
-    /// What it is.
+    /// Its format.
     pub kind: Kind,
-    /// What it does not say.
+    /// Parameters that it lacks.
     pub options: Options,
 }
 
@@ -176,7 +176,7 @@ impl ManifestSource for Effects {
 }
 
 impl Effects {
-    /// What the file holds, and its CRC-32.
+    /// Reads the track of the file, and its CRC-32.
     fn track(&self, tools: &Tools<'_>) -> Result<(Track, u32), EffectError> {
         let bytes = tools
             .file(&self.file, input::Kind::Effects)

@@ -1,4 +1,4 @@
-//! What we export comes back with its level, its spectrum and its taps.
+//! Exports import again with their level, their spectrum and their taps.
 
 use super::*;
 use crate::{

@@ -15,7 +15,7 @@ pub struct HattError {
     pub file: PathBuf,
     /// Line of the element at fault, 1-based, where there is one.
     pub line: Option<u32>,
-    /// What is wrong.
+    /// The fault.
     pub problem: Problem,
 }
 
@@ -31,8 +31,7 @@ impl fmt::Display for Place<'_> {
     }
 }
 
-/// What is wrong with a HaTT file. `field` is the element's name with its place,
-/// e.g. `model 3 ARlsf[7]`.
+/// Fault of a HaTT file. `field` is the element's name with its place, e.g. `model 3 ARlsf[7]`.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Problem {
@@ -126,7 +125,7 @@ pub enum Problem {
     Name {
         /// The name.
         value: String,
-        /// What is wrong with it.
+        /// Description of the fault.
         reason: &'static str,
     },
     /// Neither the coefficients nor the line spectral frequencies can be used.

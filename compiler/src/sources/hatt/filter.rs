@@ -10,15 +10,14 @@ use std::f64::consts::PI;
 /// LSFs this close to the coefficients are used as printed, dB RMS.
 pub(super) const AGREEMENT_DB: f64 = 0.05;
 
-/// One polynomial of a model.
+/// Polynomial of a model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Filter {
     /// `[1, c_1, …]` as printed: the truth that errors are measured against.
     pub monic: Vec<f64>,
     /// Its line spectral frequencies, rad, ascending.
     pub lsf_rad: Vec<f64>,
-    /// Whether they were computed from the coefficients, because those printed
-    /// described another filter.
+    /// True if the LSFs were computed from the coefficients, because those printed described another filter.
     pub recomputed: bool,
 }
 

@@ -27,7 +27,7 @@ pub struct Material {
     pub triangles: Vec<[usize; 3]>,
 }
 
-/// One ARMA model of a material: power spectrum `var·gain²·|MA|²/|AR|²`.
+/// ARMA model of a material: power spectrum `var·gain²·|MA|²/|AR|²`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SourceModel {
     /// Tangential speed, mm/s.
@@ -163,7 +163,7 @@ fn name(root: &Element<'_, '_>) -> Result<String, HattError> {
     }))
 }
 
-/// What the head of the file states about its lists.
+/// List lengths and ranges stated by the head of the file.
 struct Header {
     sample_rate_hz: f64,
     max_speed_mm_s: f64,

@@ -86,8 +86,7 @@ pub fn refuse_namesakes(materials: &[Hatt], results: &mut [Result<Compiled, Fail
 pub struct Hatt {
     /// Its file.
     pub file: PathBuf,
-    /// Whether the learned model decodes the taps that HaTT lacks from the AR grid. Else they are
-    /// synthesised.
+    /// True if the learned model decodes the taps, which HaTT lacks, from the AR grid; otherwise they are synthesised.
     pub complete_taps: bool,
 }
 

@@ -35,7 +35,7 @@ pub(super) struct AttributeCache<'a> {
 enum State {
     /// All that is decoded.
     Decoded,
-    /// What an asset of the request holds.
+    /// Restricted to the contents of an asset of the request.
     Kept,
 }
 
@@ -117,7 +117,7 @@ impl<'a> AttributeCache<'a> {
     }
 }
 
-/// What was found, by what it was found of.
+/// Results by key.
 struct Memo<K, V>(RefCell<Vec<(K, V)>>);
 
 impl<K, V> Default for Memo<K, V> {
@@ -127,7 +127,7 @@ impl<K, V> Default for Memo<K, V> {
 }
 
 impl<K: Copy + PartialEq, V: Clone> Memo<K, V> {
-    /// What was found of this key, or what `find` finds.
+    /// Returns the result for this key, computing it by `find` on the first use.
     fn once(&self, key: &K, find: impl FnOnce() -> Result<V, EditError>) -> Result<V, EditError> {
         // Searches take tens of looks. A key with a NaN is looked at again.
         let known = self.0.borrow().iter().find(|(of, _)| of == key).cloned();

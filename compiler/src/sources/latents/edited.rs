@@ -32,7 +32,7 @@ fn worst(missing: &Missing) -> f64 {
     missing.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
 }
 
-/// What is missing of all: one that cannot be closed does not hide the others.
+/// Sum of squares over all attributes: an error that cannot be closed does not hide the others.
 fn sum_of_squares(missing: &Missing) -> f64 {
     missing.iter().map(|x| x * x).sum()
 }

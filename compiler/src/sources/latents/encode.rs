@@ -9,7 +9,7 @@ use crate::{
 use asperity_texture::model::TextureModel;
 use std::str::FromStr;
 
-/// What of a texture the encoder is given; the rest is decoded from the latent.
+/// Part of a texture that the encoder is given; the rest is decoded from the latent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
     /// Models and taps.
@@ -31,7 +31,7 @@ impl Part {
         }
     }
 
-    /// What of a texture was recorded: taps that were synthesised say nothing of it.
+    /// Returns the recorded part of a texture: synthesised taps carry no information about it.
     #[must_use]
     pub fn recorded(texture: &TextureModel) -> Self {
         if texture.provenance.taps_synthetic || texture.taps.traces.is_empty() {

@@ -13,7 +13,7 @@ use serde::Serialize;
 use serde_json::Value;
 use std::fmt::Write as _;
 
-/// What one word did.
+/// Effect of a word.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct WordEffect {
     /// The word as it stands in the prompt.
@@ -28,12 +28,12 @@ pub struct WordEffect {
     pub slippery: f64,
 }
 
-/// What the words of a prompt did, in their order.
+/// Effects of the words of a prompt, in order.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Explanation {
-    /// What became of the words: what is encoded, then what was left out.
+    /// Interpretation of the words: those encoded, then those left out.
     pub reading: Vec<Interpretation>,
-    /// What they are together.
+    /// Interpretation of the whole phrase.
     pub phrase: String,
     /// Every word.
     pub words: Vec<WordEffect>,
@@ -134,7 +134,7 @@ fn apart(with: &[f64; 4], without: &[f64; 4], share: f64) -> [f64; 4] {
     std::array::from_fn(|axis| share * (with[axis] - without[axis]))
 }
 
-/// Whether a word says something of a surface by itself.
+/// Returns true if a word describes a surface by itself.
 fn tells(word: &str) -> bool {
     const SILENT: [&str; 24] = [
         "a", "an", "the", "and", "or", "of", "on", "in", "for", "from", "with", "without", "to",

@@ -49,7 +49,7 @@ impl<'a> LatentEditor<'a> {
         &self.scale
     }
 
-    /// What an asset remembers.
+    /// Reads the edit memory of an asset.
     ///
     /// # Errors
     /// [`EditError`] for an asset without a latent, or with one of another model.
@@ -76,7 +76,7 @@ impl<'a> LatentEditor<'a> {
         Ok(FromLatents::remembered(raise(asset), self.memory(asset)?))
     }
 
-    /// What an asset was compiled with, so that it can be compiled again in the same way. The rate
+    /// Returns the request that an asset was compiled with, so that it can be compiled again in the same way. The rate
     /// is the decoder's own if `None`.
     #[must_use]
     pub fn request(&self, asset: &Asset<'_>) -> Request {

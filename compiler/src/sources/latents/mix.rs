@@ -23,7 +23,7 @@ use serde_json::{Map, Value, json};
 /// Steps by which an attribute may miss its target before the user is warned.
 const NEAR: f64 = 3.0;
 
-/// What a user can ask of a mixture besides its ingredients.
+/// Options of a mixture besides its ingredients.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct MixOptions {
     /// Its name; one that names the ingredients if `None`.
@@ -51,27 +51,27 @@ pub struct Mix {
     pub source: FromLatents,
     /// As the texture that is kept was compiled.
     pub request: Request,
-    /// What is added to the report.
+    /// Additional lines of the report.
     lines: Vec<(&'static str, String)>,
     more: Value,
     edited: Option<Edited>,
 }
 
-/// What an edit is compared with.
+/// Reference for the result of an edit.
 #[derive(Debug, Clone)]
 struct Edited {
     before: Attributes,
     asked: Option<Sliders>,
 }
 
-/// What to report of a mixture.
+/// Report on a mixture.
 #[derive(Debug, Clone)]
 pub struct MixReport {
     /// For machines.
     pub json: Value,
     /// For people: a name and its value in each.
     pub lines: Vec<(&'static str, String)>,
-    /// What a user should know besides the warnings of the texture.
+    /// Warnings for the user besides those of the texture.
     pub warnings: Vec<String>,
 }
 
@@ -273,7 +273,7 @@ impl LatentEditor<'_> {
 }
 
 impl Mix {
-    /// What to report once it is compiled.
+    /// Returns the report once it is compiled.
     #[must_use]
     pub fn report(mut self, editor: &LatentEditor<'_>, compiled: &Compiled) -> MixReport {
         let attributes = compiled.attributes();

@@ -10,7 +10,7 @@ use asperity_texture::model::{attributes::Attributes, shift::Shift};
 /// Share of the materials that lie below 0, and above 100.
 const BEYOND: f64 = 0.05;
 
-/// What 0 and 100 of each slider mean, and where in the latent an attribute grows.
+/// Scale of each slider: its values at 0 and 100, and its gradient in the latent space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scale {
     /// Attribute at 0 and at 100, in the order of [`AXES`].

@@ -19,12 +19,11 @@ pub struct FromLatents {
     pub name: String,
     /// Where it comes from.
     pub provenance: Provenance,
-    /// How it was made and edited.
+    /// Creation and edit history.
     pub history: History,
-    /// How friction depends on speed, of which latents say nothing: its factors multiply what they
-    /// say of μ.
+    /// Speed dependence of the friction, which latents do not encode: its factors multiply their μ.
     pub law: Option<FrictionLaw>,
-    /// What a user should be told.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
 }
 

@@ -29,14 +29,14 @@ impl Default for Edit {
 }
 
 impl Edit {
-    /// Whether nothing is moved.
+    /// Returns true if nothing is moved.
     #[must_use]
     pub fn is_still(&self) -> bool {
         matches!(self, Self::Steps(sliders) if sliders.are_still())
     }
 }
 
-/// What an edit comes to.
+/// Result of an edit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Worded {
     /// The latents after it.
@@ -50,7 +50,7 @@ pub struct Worded {
 }
 
 impl LatentEditor<'_> {
-    /// What an edit of a texture comes to.
+    /// Applies an edit to a texture.
     ///
     /// # Errors
     /// As [`edited`](Self::edited) and [`worded`](Self::worded).

@@ -13,14 +13,14 @@ pub struct ModelFileError {
     pub file: PathBuf,
     /// JSON path of the field, e.g. `grid.vertices[3].lsf_rad[2]`; empty for the file itself.
     pub field: String,
-    /// What is wrong.
+    /// The fault.
     pub problem: ModelFileProblem,
 }
 
 /// The JSON path of a field, and what is wrong with it.
 pub(super) type Fault = (String, ModelFileProblem);
 
-/// What is wrong with a model file.
+/// Fault of a model file.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ModelFileProblem {
@@ -33,13 +33,13 @@ pub enum ModelFileProblem {
     /// It is JSON of another kind.
     #[error("{found}, but {FORMAT:?} is expected")]
     Format {
-        /// What the file says it is.
+        /// Format stated by the file.
         found: String,
     },
     /// A later version, or none.
     #[error("{found}, but this program reads version {VERSION}")]
     Version {
-        /// What the file says.
+        /// Version stated by the file.
         found: String,
     },
     /// A text that an asset cannot hold.
@@ -58,7 +58,7 @@ pub enum ModelFileProblem {
     Value {
         /// The number.
         value: f64,
-        /// What it must be.
+        /// Accepted values.
         rule: String,
     },
     /// A line spectral frequency that is no angle below π.
@@ -77,7 +77,7 @@ pub enum ModelFileProblem {
     Length {
         /// Entries found.
         found: usize,
-        /// What their number must be.
+        /// Required number of entries.
         rule: String,
     },
     /// A field that the numerator asks for, or has no use for.
@@ -99,9 +99,9 @@ pub enum ModelFileProblem {
     /// The triangles do not tile the rectangle.
     #[error("{cause}")]
     Mesh {
-        /// What is wrong with them.
+        /// Fault of the triangulation.
         cause: asperity_texture::model::mesh::MeshError,
-        /// Whether the file states them.
+        /// True if the file states them.
         stated: bool,
     },
 }

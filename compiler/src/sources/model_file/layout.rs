@@ -1,4 +1,4 @@
-//! How a file is laid out: indented down to the vertices, of which each is one line.
+//! Layout of a file: indented down to the vertices, each of which is a line.
 
 use serde_json::ser::Formatter;
 use std::io::{Result, Write};
@@ -10,7 +10,7 @@ const INDENTED: usize = 3;
 #[derive(Debug, Default)]
 pub(super) struct Shallow {
     depth: usize,
-    /// Whether the list or object that ends has an entry.
+    /// True if the list or object that ends has an entry.
     filled: bool,
 }
 

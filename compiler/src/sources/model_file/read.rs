@@ -36,7 +36,7 @@ pub(super) fn read_with(
     Ok((texture, crc32fast::hash(&bytes)))
 }
 
-/// What every version states, whatever else it holds.
+/// Fields common to all versions.
 #[derive(Deserialize)]
 struct Head {
     format: Option<Value>,

@@ -7,7 +7,7 @@
 use asperity_texture::model::{FrictionAnchor, FrictionLaw, Gains, Numerator, VertexKind, Wall};
 use serde::{Deserialize, Serialize};
 
-/// What `format` says.
+/// Value of `format`.
 pub const FORMAT: &str = "asperity-model";
 /// The version that is written, and the only one that is read.
 pub const VERSION: u64 = 1;
@@ -43,7 +43,7 @@ pub(super) struct Grid {
     pub(super) triangles: Option<Vec<[usize; 3]>>,
 }
 
-/// One model: power spectrum (gain·σ)²·|B|²/|A|².
+/// Vertex model: power spectrum (gain·σ)²·|B|²/|A|².
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Vertex {
@@ -51,11 +51,11 @@ pub(super) struct Vertex {
     pub(super) force_n: f64,
     pub(super) kind: VertexKind,
     pub(super) sigma_m_s2: f64,
-    /// Of the numerator `lsf` only.
+    /// For the numerator `lsf` only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) gain: Option<f64>,
     pub(super) lsf_rad: Vec<f64>,
-    /// Of the numerator `lsf` only.
+    /// For the numerator `lsf` only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) ma_lsf_rad: Option<Vec<f64>>,
 }

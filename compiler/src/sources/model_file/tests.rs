@@ -1,4 +1,4 @@
-//! What a file keeps, what it may leave out, and what is refused.
+//! Contents of a model file: preserved fields, optional fields, refusals.
 
 use super::*;
 use crate::{

@@ -1,4 +1,4 @@
-//! How well what a prompt says is known.
+//! Certainty of a prompt's interpretation.
 
 use super::{
     phrase::Phrase,
@@ -12,9 +12,9 @@ use asperity_language::lexicon::is_name;
 const SURE: f32 = 0.7;
 
 impl PromptCompiler {
-    /// What was read is known where it is one name, with qualities and numbers at most; close where it is put
-    /// together of known things, or lies near to what the model was trained on; else a guess. Where a word is felt or not with less than [`SURE`], it is one level less. What
-    /// was misspelt is at most close, and a guess where it may be another word.
+    /// Rates a reading: known if it is a single name, with qualities and numbers at most; close if it is composed of
+    /// known things, or lies near the training data; else a guess. It is one level lower if a word is felt or not with
+    /// a probability below [`SURE`]. A corrected misspelling is at most close, and a guess if it may be another word.
     pub(super) fn certainty(&self, reading: &Reading, unfamiliar: bool) -> Certainty {
         let certainty = self.certainty_as_read(reading, unfamiliar);
         let certainty = match certainty {

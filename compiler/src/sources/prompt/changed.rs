@@ -1,4 +1,4 @@
-//! How far attributes go from those of a base, as the changes of a phrase say.
+//! Attribute changes relative to a base, as a phrase states them.
 
 use super::phrase::{Change, Changes};
 use asperity_texture::model::{
@@ -6,11 +6,11 @@ use asperity_texture::model::{
     shift::{Scales, Shift, scales, to},
 };
 
-/// One step of a change: roughness in dB, slipperiness as −ln μ, hardness as ln of the centroid.
-/// Half a step is noticed (amplitude 1.6 dB, frequency 18 %, friction 10 %).
+/// Step of a change: roughness in dB, slipperiness as −ln μ, hardness as ln of the centroid. Half a step is noticed
+/// (amplitude 1.6 dB, frequency 18 %, friction 10 %).
 pub const STEP: [f64; 3] = [5.0, 0.35, 0.42];
 
-/// What is `said`, moved so that it differs from its base as the changes say.
+/// Returns `said`, clamped so that it differs from its base by the stated changes.
 #[must_use]
 pub fn changed(base: &Scales, said: &Scales, changes: &Changes) -> Scales {
     let changes = [changes.rough, changes.slippery, changes.hard];
@@ -24,7 +24,7 @@ pub fn changed(base: &Scales, said: &Scales, changes: &Changes) -> Scales {
     })
 }
 
-/// How far a texture is to move so that it differs from its base as the changes say.
+/// Returns the shift after which a texture differs from its base by the stated changes.
 #[must_use]
 pub fn from_base(base: &Attributes, now: &Attributes, changes: &Changes) -> Shift {
     to(&changed(&scales(base), &scales(now), changes), now)

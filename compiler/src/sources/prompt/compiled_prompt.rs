@@ -1,4 +1,4 @@
-//! What can be asked of a prompt's texture, and what there is to know of it.
+//! Options and results of compiling a prompt.
 
 use super::{reading::Reading, understood::Understood};
 use crate::{
@@ -9,13 +9,13 @@ use crate::{
 };
 use asperity_texture::model::shift::Shift;
 
-/// What a user can ask of a texture besides its prompt.
+/// Compile options besides the prompt.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
     /// 0 for the texture that the prompt means. Other seeds give variations of it, as another
     /// piece of the same material varies.
     pub seed: u64,
-    /// What is asked of any texture; the rate is the decoder's own if `None`.
+    /// Options common to all textures; the rate is the decoder's own if `None`.
     pub request: Request,
 }
 
@@ -42,22 +42,22 @@ impl Options {
     }
 }
 
-/// What was found of a prompt.
+/// Interpretation of a compiled prompt.
 #[derive(Debug, Clone)]
 pub struct CompiledPrompt {
     /// The latent that the texture was decoded from.
     pub z: Latent,
-    /// What the grammar of the prompt moved after that.
+    /// Shift by the grammar of the prompt, applied after decoding.
     pub shift: Shift,
     /// The nearest materials, which friction is interpolated from.
     pub nearest: Vec<Nearest>,
-    /// How well what it says is known.
+    /// Certainty of the interpretation.
     pub certainty: Certainty,
     /// Largest cosine between the prompt and a material's mean caption.
     pub similarity: f64,
     /// Tokens read, and cut off.
     pub tokens: (usize, usize),
-    /// What the prompt names, and what it says of touch.
+    /// Names and touch qualities in the prompt.
     pub reading: Reading,
     /// Which words of the prompt the encoder can read.
     pub understood: Understood,

@@ -18,7 +18,7 @@ const MOST: usize = 4096;
 /// A text with what the networks made of it.
 pub(super) type Read = Arc<(Encoded, Projected)>;
 
-/// What was read ahead. It is what would be computed again, so nothing depends on it but time.
+/// Precomputed results. They equal those computed on demand, so only time depends on them.
 #[derive(Debug, Default)]
 pub(super) struct EncodingCache {
     readings: Mutex<HashMap<String, Reading>>,

@@ -1,4 +1,4 @@
-//! How far a number moves the attributes of a material.
+//! Attribute changes of a material by a stated number.
 
 use super::{PromptCompiler, PromptError, named_things::Referent};
 use asperity_language::words::grade::{

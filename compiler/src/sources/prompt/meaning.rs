@@ -13,14 +13,14 @@ use asperity_texture::model::{
 };
 use std::sync::Arc;
 
-/// What a prompt means.
+/// Meaning of a prompt.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Meaning {
     /// Its latent.
     pub z: Latent,
-    /// How far attributes move from what the latent decodes to.
+    /// Shift of the attributes from those of the decoded latent.
     pub shift: Shift,
-    /// What the latent decodes to.
+    /// The decoded latent.
     pub decoded: Arc<Decoded>,
 }
 
@@ -92,7 +92,7 @@ impl PromptCompiler {
         Ok((z, Some(wanted)))
     }
 
-    /// What a latent decodes to, and the way from there to what is wanted.
+    /// Decodes a latent, and computes the shift from there to the wanted attributes.
     pub(super) fn decode_target(
         &self,
         z: Latent,

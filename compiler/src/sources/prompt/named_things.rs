@@ -16,7 +16,7 @@ pub(super) struct Referent {
     pub(super) z: Latent,
     /// The attributes that its words ask for.
     pub(super) wanted: Scales,
-    /// Whether it was put together of others, so that no vector of words says what it is.
+    /// True if it is composed of other materials, so that no word vector describes it.
     pub(super) composed: bool,
 }
 

@@ -40,7 +40,7 @@ pub struct PromptCompiler {
     /// Those that the model knows by name.
     pub(super) known: Things,
     pub(super) cache: EncodingCache,
-    /// Whether its networks give a row of a batch the bits that it gets alone.
+    /// True if its networks give a row of a batch the same bits as the row alone.
     pub(super) together: bool,
 }
 
@@ -100,7 +100,7 @@ impl PromptCompiler {
         &self.model
     }
 
-    /// What a prompt names, and what it says of touch: what is encoded of it.
+    /// Reads the names and touch qualities in a prompt, which are encoded.
     #[must_use]
     pub fn read(&self, prompt: &str) -> Reading {
         let cached = self.cache.reading(prompt);
@@ -269,11 +269,11 @@ pub struct Projection {
     pub similarity: f64,
     /// Soft maximum of the cosines with all that the projection was trained on.
     pub familiarity: f64,
-    /// How well what it says is known.
+    /// Certainty of the interpretation.
     pub certainty: Certainty,
     /// Tokens read, and cut off.
     pub tokens: (usize, usize),
-    /// What the prompt names, and what it says of touch.
+    /// Names and touch qualities in the prompt.
     pub reading: Reading,
     /// Which words the encoder can read.
     pub understood: Understood,

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use std::fmt::Write as _;
 
 impl CompiledPrompt {
-    /// What a user should be told apart from the result, one line each.
+    /// Returns the warnings for the user, one line each.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
@@ -66,8 +66,8 @@ impl CompiledPrompt {
 const NAMED: usize = 3;
 
 impl CompiledPrompt {
-    /// What a designer asks of a texture: what the words were taken for, how it feels on the scales of the sliders, how
-    /// sure that is.
+    /// Summarises a texture for a designer: the interpretation of the words, the feel on the scales of the sliders, the
+    /// certainty.
     #[must_use]
     pub fn summary(&self, compiled: &Compiled, scale: &Scale) -> String {
         let mut lines = Lines::default();

@@ -12,7 +12,7 @@ use std::sync::Arc;
 /// A prompt and a seed.
 #[derive(Debug, Clone)]
 pub struct Prompt {
-    /// What the texture is to feel like.
+    /// Description of the feel.
     pub text: String,
     /// 0 for the texture that the prompt means. Other seeds give variations of it, as another
     /// piece of the same material varies.
@@ -26,7 +26,7 @@ pub struct Prompt {
 pub struct Picture {
     /// The picture.
     pub png: Vec<u8>,
-    /// What made it.
+    /// Generator of the picture.
     pub made: String,
 }
 

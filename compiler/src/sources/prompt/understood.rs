@@ -15,7 +15,7 @@ const EXCERPT: usize = 160;
 pub struct Understood {
     /// The words that were read, in their order.
     pub read: String,
-    /// What was not: other scripts, emoji, words without a token.
+    /// Text that was not read: other scripts, emoji, words without a token.
     pub unread: Vec<String>,
 }
 
@@ -54,7 +54,7 @@ pub(super) fn understood(prompt: &str, reads: impl Fn(&str) -> bool) -> Understo
 }
 
 impl Understood {
-    /// What to tell a user, unless everything was read.
+    /// Returns a warning for the user, unless everything was read.
     pub(super) fn warning(&self) -> Option<String> {
         if self.unread.is_empty() {
             return None;
@@ -148,7 +148,7 @@ fn of(character: char) -> Script {
     }
 }
 
-/// Whether a character only changes or joins those beside it: accents, joiners, variants.
+/// Returns true if a character only modifies or joins its neighbours: accents, joiners, variants.
 fn joins(character: char) -> bool {
     matches!(
         character,

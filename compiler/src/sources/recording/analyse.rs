@@ -30,7 +30,7 @@ pub struct Step {
     pub took: Duration,
 }
 
-/// What the sensors say.
+/// Analysis of the sensor data.
 #[derive(Debug)]
 pub struct Analysis {
     /// The files.

@@ -1,4 +1,4 @@
-//! What was not recorded, from the latent of what was.
+//! Completion of the unrecorded parts, from the latent of the recorded ones.
 
 use crate::learned::{
     LearnedModel, ModelError, Present,
@@ -22,7 +22,7 @@ pub struct Nearest {
     pub cosine: f64,
 }
 
-/// What the learned model says of a grid.
+/// Completion of a grid by the learned model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Completed {
     /// The nearest materials, the nearest first.

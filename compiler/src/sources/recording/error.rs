@@ -1,4 +1,4 @@
-//! What can go wrong between a folder and an asset.
+//! Errors between a folder and an asset.
 
 use asperity_io::{diagnostic::Diagnostic, shown::counted};
 use asperity_recording::RecordingError;
@@ -17,11 +17,11 @@ pub enum RecordingFailure {
     Faulty {
         /// The folder.
         folder: PathBuf,
-        /// How many.
+        /// Number of faults.
         count: usize,
         /// The first fault.
         first: String,
-        /// What to do.
+        /// Remedy for the first fault.
         remedy: String,
     },
     /// Too few strokes.
@@ -33,7 +33,7 @@ pub enum RecordingFailure {
         found_s: f64,
         /// Stretches.
         segments: usize,
-        /// What is needed, s.
+        /// Required time, s.
         least_s: f64,
     },
 }

@@ -170,7 +170,7 @@ fn lines(recorded: &Recorded, f: &mut String) -> fmt::Result {
     write!(f, "nearest   {}", nearest.join(", "))
 }
 
-/// What of a law is rendered.
+/// Describes the rendered part of a friction law.
 fn rendered(friction: &Friction) -> String {
     let of_load = matches!(friction.law, Law::Power { of_load, .. } if of_load != 0.0);
     if friction.depends_on_speed() {
@@ -188,7 +188,7 @@ fn rendered(friction: &Friction) -> String {
     }
 }
 
-/// What free-air taps showed, and what was done.
+/// Describes the resonances found in free-air taps, and their compensation.
 fn resonance_text(free_air: &FreeAir) -> String {
     if free_air.taps == 0 {
         return "of tool and sensor not compensated: there is no tap in free air".into();

@@ -25,7 +25,7 @@ use std::{path::PathBuf, sync::Arc};
 pub struct RecordingFolder {
     /// The folder.
     pub folder: PathBuf,
-    /// Whether faults of the recording are let pass.
+    /// True if faults of the recording are ignored.
     pub force: bool,
 }
 
@@ -105,12 +105,12 @@ impl ManifestSource for RecordingFolder {
     }
 }
 
-/// What was found in a recording.
+/// Findings from a recording.
 #[derive(Debug)]
 pub struct Recorded {
-    /// What the sensors said.
+    /// Analysis of the sensor data.
     pub analysis: Analysis,
-    /// What the learned model said.
+    /// Completion by the learned model.
     pub completed: Completed,
     /// Where each part comes from.
     pub parts: Parts,

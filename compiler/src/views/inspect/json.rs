@@ -10,7 +10,7 @@ use asperity_texture::model::{
 use serde::Serialize;
 use std::fmt::{self, Display, Formatter};
 
-/// One texture. Field names and their meaning are a contract.
+/// JSON of a texture. Field names and their meaning are a contract.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Document {
     /// Version of the format that the asset was written in.
@@ -44,7 +44,7 @@ pub struct Ar {
     pub order: usize,
     /// Sample rate of every model, Hz.
     pub sample_rate_hz: f64,
-    /// What stands above A(z).
+    /// Numerator over A(z).
     pub numerator: Numerator,
     /// Vertices.
     pub vertices: Vec<Vertex>,
@@ -56,7 +56,7 @@ pub struct Ar {
     pub max_force_n: f64,
 }
 
-/// One vertex: power spectrum (gain·σ)²·|B|²/|A|².
+/// Vertex model: power spectrum (gain·σ)²·|B|²/|A|².
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Vertex {
     /// Tangential speed, mm/s.
@@ -90,7 +90,7 @@ pub struct Taps {
     pub sample_rate_hz: f64,
     /// Impact speeds, m/s, ascending.
     pub speeds_m_s: Vec<f64>,
-    /// One trace an impact speed, m/s².
+    /// Traces, m/s², one per impact speed.
     pub traces_m_s2: Vec<Vec<f64>>,
 }
 
@@ -103,12 +103,12 @@ pub struct Friction {
     pub anchors: Vec<FrictionAnchor>,
     /// Their weighted mean, from which words, edits or a recording moved `mu`; `None` without anchors.
     pub anchors_mu: Option<f64>,
-    /// How it depends on speed: factors of `mu`. Absent where it does not.
+    /// Speed dependence: factors of `mu`. Absent if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub law: Option<FrictionLaw>,
 }
 
-/// One line: μ, the materials that have a share of it, and how far words or edits moved it from their mean.
+/// Formats a line: μ, the materials that have a share of it, and how far words or edits moved it from their mean.
 impl Display for Friction {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "μ {:.3}", self.mu)?;

@@ -1,4 +1,4 @@
-//! How a surface of a scene is shown.
+//! Display of a scene's surface.
 
 use asperity_formats::{self as formats, SceneSurface, limits::MAX_POSITION_M};
 use serde::Serialize;
@@ -37,7 +37,7 @@ pub enum Solid {
 }
 
 impl SurfaceDocument {
-    /// Of a surface, given the names of the library's textures.
+    /// Describes a surface, given the names of the library's textures.
     #[must_use]
     pub fn of(surface: &SceneSurface, names: &[String]) -> Self {
         let name = names.get(usize::from(surface.texture));

@@ -47,12 +47,12 @@ pub struct Stroke {
     pub time_s: f32,
 }
 
-/// What the hand does.
+/// Gesture of the hand.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gesture {
     /// Strokes, one after the other.
     pub strokes: Vec<Stroke>,
-    /// Whether taps follow: slow, middling and fast among those that the texture holds.
+    /// True if taps follow: slow, middling and fast among those that the texture holds.
     pub taps: bool,
 }
 
@@ -73,7 +73,7 @@ impl Gesture {
         }
     }
 
-    /// What options ask for: a stroke of this speed or force, taps alone, or the usual.
+    /// Returns the requested gesture: a stroke of this speed or force, taps alone, or the default.
     #[must_use]
     pub fn asked(speed_mm_s: Option<f32>, force_n: Option<f32>, taps: bool) -> Self {
         if speed_mm_s.is_none() && force_n.is_none() {
@@ -99,7 +99,7 @@ impl Gesture {
     }
 }
 
-/// What is heard.
+/// Rendered sound.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Heard {
     /// A mono WAV file of 16 bits at [`SOUND_HZ`].
@@ -110,11 +110,11 @@ pub struct Heard {
     pub strokes: Part,
     /// Taps heard, and their gain.
     pub taps: Part,
-    /// What a user should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
 }
 
-/// One part of what is heard.
+/// Statistics of the strokes or the taps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Part {
     /// Strokes or taps.
@@ -179,7 +179,7 @@ pub struct Performance {
     pub strokes: Vec<(Stroke, Vec<f64>)>,
     /// Impact speeds, m/s, each with its transient, m/s².
     pub taps: Vec<(f32, Vec<f64>)>,
-    /// What a user should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
 }
 

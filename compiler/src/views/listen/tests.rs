@@ -1,4 +1,4 @@
-//! What is heard of the built-in texture.
+//! Sound of the built-in texture.
 
 use super::*;
 use crate::{emit::lower::lower, sources::builtin};

@@ -17,5 +17,5 @@ pub const OUTPUT_COLUMNS: [&str; 12] = [
     "fz_n",
     "flags",
 ];
-/// One more column of a scene: the surface in contact, from 0; empty where there is none.
+/// Additional column of a scene: the surface in contact, from 0; empty where there is none.
 pub const SURFACE_COLUMN: &str = "surface";

@@ -24,7 +24,7 @@ pub enum RenderError {
     Table {
         /// The file.
         file: PathBuf,
-        /// What is wrong, with the line.
+        /// The fault, with the line.
         error: TableError,
     },
     /// A column is missing.

@@ -37,7 +37,7 @@ use trajectory::Rows;
 /// Most textures of a scene that is rendered, each of which takes a slot; `asperity build` packs 64 at most.
 pub const MAX_SCENE_TEXTURES: usize = 1024;
 
-/// What a run did.
+/// Statistics of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RenderReport {
     /// Rows rendered.

@@ -14,7 +14,7 @@ use std::{
 /// printed with few digits, too little for another rate to go unnoticed for long.
 const TIME_TOLERANCE: f64 = 0.25;
 
-/// One row: time and position.
+/// Row of a trajectory: time and position.
 pub(super) struct Row {
     pub(super) t_s: f64,
     pub(super) position_mm: [f64; 3],

@@ -100,7 +100,7 @@ pub(crate) fn previews(args: &Arguments, manifest: &mut Manifest) {
     }
 }
 
-/// What a build of a manifest needs, scene or not: its outputs, the model, the cache, the lock.
+/// Prerequisites of a manifest build, with or without a scene: outputs, model, cache, lock.
 pub(crate) struct Prepared<'a> {
     args: &'a Arguments,
     pub(crate) output: &'a Path,
@@ -195,7 +195,7 @@ fn boxed(errors: Vec<ManifestError>) -> Failures {
     boxed.collect()
 }
 
-/// What `--check` says of a manifest without a fault.
+/// Prints the result of `--check` for a manifest without faults.
 fn checked(args: &Arguments, manifest: &Manifest, console: Console) -> Result<(), Failures> {
     let count = manifest.entries.len();
     let printed = if args.reporting.json {

@@ -29,7 +29,7 @@ pub(crate) fn run(args: &Diff, console: Console) -> Result<(), Failures> {
     }
 }
 
-/// Whether all that a hand can meet are spectra, and those by this many dB at most.
+/// Returns true if the only haptic change is in the spectra, by at most `db` dB.
 fn is_within(change: &Change, db: f64) -> bool {
     let same = |[old, new]: [f64; 2]| old == new;
     let taps = !change.sections.iter().any(|tag| tag == "TAPS");

@@ -36,7 +36,7 @@ pub(crate) fn run(args: &List, console: Console) -> Result<(), Failures> {
     printed.map_err(one)
 }
 
-/// How it was made, and every edit since; `None` for one without latents.
+/// Returns the edit history; `None` for an asset without latents.
 fn history(asset: &Asset<'_>) -> Option<History> {
     let memory = remembered(asset).ok().flatten();
     memory.map(|memory| memory.history)

@@ -47,7 +47,7 @@ pub(crate) fn run(args: &Split, console: Console) -> Result<(), Failures> {
 /// Names of files and their bytes.
 type Files = Vec<(String, Vec<u8>)>;
 
-/// One asset a texture, under the name that the index gives it, and the names that no file can have.
+/// Returns one asset per texture, named as in the index, and the names that are not valid file names.
 fn assets(shelf: &LoadedLibrary) -> Result<(Files, Vec<String>), Failures> {
     let names: Vec<&str> = shelf
         .textures

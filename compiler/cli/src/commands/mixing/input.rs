@@ -5,14 +5,14 @@ use asperity_formats::Asset;
 use asperity_io::diagnostic::{Failures, one};
 use std::path::{Path, PathBuf};
 
-/// One texture that a command reads.
+/// An input texture.
 pub(super) struct Input {
     path: PathBuf,
     texture: Option<String>,
 }
 
 impl Input {
-    /// What an argument means. A file whose name holds a `#` is that file.
+    /// Parses an argument. If a file of that whole name exists, a `#` in it is not a separator.
     pub(super) fn of(argument: &str) -> Self {
         let whole = || Self {
             path: argument.into(),
@@ -44,7 +44,7 @@ impl Input {
     }
 }
 
-/// One texture that was read.
+/// An input texture and its bytes.
 pub(super) struct Chosen {
     input: Input,
     textures: Textures,

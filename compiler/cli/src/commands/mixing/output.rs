@@ -42,7 +42,7 @@ impl<'a> Mixing<'a> {
         self.args.inference.setup().prompt_compiler()
     }
 
-    /// What the user asks of the mixture.
+    /// Returns the requested mix options.
     pub(super) fn options(&self) -> MixOptions {
         let preview = &self.args.preview;
         MixOptions {

@@ -15,7 +15,7 @@ const SPREAD: f64 = 0.7;
 const STEPS: usize = 12;
 const LARGEST_STEP: f64 = 2.0;
 
-/// What a segment says of a band.
+/// Power of a band in a segment, near a place.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Measured {
     /// Mean power over the band, noise included, (m/s²)².

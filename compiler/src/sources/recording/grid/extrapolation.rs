@@ -47,7 +47,7 @@ const UNKNOWN: f64 = 0.5;
 /// Mean power of a vertex over that of the loudest place at the visited border, at most: 6 dB.
 const LOUDEST: f64 = 4.0;
 
-/// What part of the slopes is kept at each end.
+/// Fraction of the slopes that is kept at each end.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Slopes {
     /// Below and above the visited speeds.

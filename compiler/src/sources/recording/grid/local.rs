@@ -1,4 +1,4 @@
-//! What the segments near a speed and a force say: local regression of spectra.
+//! Local regression of the segments' spectra around a speed and a force.
 //!
 //! In every band the logarithm of the power is linear in ln v and ln F over a neighbourhood, so that a power
 //! law is met exactly; within a band the power over the band's is linear. The width of the neighbourhood
@@ -81,7 +81,7 @@ fn coordinates(speed_mm_s: f64, force_n: f64) -> [f64; 2] {
 type Near<'a> = (&'a Row, [f64; 2], f64);
 
 impl Local {
-    /// Of segments, under the sensors' noise.
+    /// Fits the segments, under the sensors' noise.
     pub(super) fn new<'a>(strokes: &Segments, segments: impl Iterator<Item = &'a Segment>) -> Self {
         let mut rows: Vec<Row> = segments
             .map(|segment| Row {
@@ -281,7 +281,7 @@ impl Local {
     }
 }
 
-/// What the segments say of a band.
+/// Collects the power of a band in the segments near a place.
 fn measured(near: &[Near<'_>], band: usize) -> Vec<Measured> {
     let one = |(row, away, weight): &Near<'_>| Measured {
         power: row.bands[band],

@@ -55,7 +55,7 @@ const BLOCK_S: f64 = 3.0;
 /// Seconds of vibration that the neighbourhood of a vertex counts as, where all vertices are moved to
 /// explain the segments together.
 const PRIORS_S: [f64; 3] = [0.1, 0.5, 2.0];
-/// What another vertex or coefficient must gain, in Whittle's measure.
+/// Minimum gain of another vertex or coefficient, in Whittle's measure.
 const LEAST_GAIN: f64 = 4e-4;
 
 /// A choice and its held-out error.
@@ -63,13 +63,13 @@ const LEAST_GAIN: f64 = 4e-4;
 pub struct Tried {
     /// AR order.
     pub order: usize,
-    /// Whether the numerator is 1 + z⁻¹ rather than 1.
+    /// True if the numerator is 1 + z⁻¹ rather than 1.
     pub nyquist_zero: bool,
     /// Width of the neighbourhood, standard deviations.
     pub width: f64,
     /// Vertices that are measured.
     pub vertices: usize,
-    /// How much a difference in level counts where vertices are placed.
+    /// Weight of a difference in level in the placement of vertices.
     pub steepness: f64,
     /// Seconds that the neighbourhood of a vertex counts as beside the segments that its mixtures meet;
     /// `None` where it alone counts.
@@ -78,7 +78,7 @@ pub struct Tried {
     pub held_out: f64,
 }
 
-/// How sure a vertex is.
+/// Reliability of a vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct VertexFacts {
     /// Its speed, mm/s.
@@ -102,7 +102,7 @@ pub struct GridFit {
     pub facts: Vec<VertexFacts>,
     /// Part of the power laws with which it goes on beyond what was visited.
     pub beyond: Slopes,
-    /// What was chosen.
+    /// The best choice.
     pub chosen: Tried,
     /// All that was tried.
     pub tried: Vec<Tried>,

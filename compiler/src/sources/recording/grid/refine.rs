@@ -75,7 +75,7 @@ pub(super) fn refine(
 struct Seen<'a> {
     /// Measured vertices with their parts.
     parts: Vec<(usize, f64)>,
-    /// What the vertices that stay add to cos ω and to the level.
+    /// Contribution of the fixed vertices to cos ω and to the level.
     fixed: (Vec<f64>, f64),
     seconds: f64,
     power: &'a [f64],

@@ -15,7 +15,7 @@ const FLOOR: f64 = 1e-5;
 /// Neighbouring LSFs keep at least this distance, rad: more than an asset demands.
 const LEAST_GAP_RAD: f64 = 0.012;
 
-/// What a model may be made of.
+/// Form of a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Form {
     /// AR order.

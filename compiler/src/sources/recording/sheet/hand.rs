@@ -1,4 +1,4 @@
-//! What the hand did: motion, coverage, friction, taps.
+//! Hand panels: motion, coverage, friction, taps.
 
 use super::Shown;
 use asperity_plot::{

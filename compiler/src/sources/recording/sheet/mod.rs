@@ -15,7 +15,7 @@ pub const HEIGHT_PX: u32 = 1700;
 const HEADER: f32 = 110.0;
 const ROW: f32 = 530.0;
 
-/// What the parts of the sheet show.
+/// Data of the panels.
 struct Shown<'a> {
     analysis: &'a Analysis,
     completed: &'a Completed,

@@ -1,4 +1,4 @@
-//! What became of it: spectra, how the grid was chosen, how sure it is.
+//! Model panels: spectra, choice of the grid, uncertainty.
 
 use crate::sources::recording::{grid::Tried, sheet::Shown};
 use asperity_plot::{Axis, Canvas, Key, Marker, Panel, Rect, Stroke, ink};

@@ -3,7 +3,7 @@
 use super::level::level;
 use asperity_texture::model::{GridVertex, ModelGrid, VertexKind};
 
-/// One vertex for each distinct filter: interior ones first, then edge ones from the loudest on.
+/// Returns a vertex for each distinct filter: interior ones first, then edge ones from the loudest on.
 ///
 /// A filter is represented by an interior vertex that has it, else by the loudest
 /// edge vertex.

@@ -1,4 +1,4 @@
-//! How loud a model is, and its colour.
+//! Level of a model, and its colour.
 
 use asperity_plot::{ColorMap, ColorScale};
 

@@ -1,4 +1,4 @@
-//! One texture on one sheet: poles, spectra, taps, grid, friction and wall.
+//! Data sheet of a texture: poles, spectra, taps, grid, friction and wall.
 
 mod contact;
 mod distinct;

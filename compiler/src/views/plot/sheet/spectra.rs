@@ -16,7 +16,7 @@ const BAR_ROOM: f32 = 150.0;
 /// Largest range of the vertical axis, dB. Notches may be arbitrarily deep.
 const SPAN_DB: f64 = 70.0;
 
-/// One curve: dB at `POINTS` frequencies from 0 to Nyquist.
+/// Spectrum: dB at `POINTS` frequencies from 0 to Nyquist.
 struct Curve {
     speed_mm_s: f64,
     density_db: Vec<f64>,
@@ -134,7 +134,7 @@ fn group_title(group: &[&GridVertex]) -> String {
     }
 }
 
-/// One-sided density 2·S/f_s in dB re 1 (m/s²)²/Hz.
+/// Computes the one-sided density 2·S/f_s in dB re 1 (m/s²)²/Hz.
 fn curve(grid: &ModelGrid, vertex: &GridVertex) -> Curve {
     let model = ArmaModel::at_vertex(grid, vertex);
     let step = 0.5 * grid.sample_rate_hz / (POINTS - 1) as f64;
