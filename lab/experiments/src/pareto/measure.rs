@@ -27,8 +27,6 @@ pub struct Options {
     pub seconds: f64,
     /// True to count instructions.
     pub instructions: bool,
-    /// True to time the kernels against the default.
-    pub time: bool,
 }
 
 /// Everything that was measured.
@@ -92,12 +90,6 @@ pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + S
             let instructions = instructions(variant, &mine, common, &mut count);
             let mut summary = summarised(variant.clone(), &mine);
             summary.instructions = instructions;
-            if options.time {
-                let orders = mine
-                    .first()
-                    .map_or(common, |row| costed(variant, row, common));
-                summary.time_ratio = cost::time_ratio(&variant.design, orders);
-            }
             done();
             summary
         })
@@ -264,7 +256,6 @@ mod tests {
             seed: 5,
             seconds: 0.2,
             instructions: false,
-            time: false,
         };
         let run = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();

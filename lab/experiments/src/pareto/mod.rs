@@ -9,7 +9,7 @@
 //! | [`material`] | the textures that are measured |
 //! | [`accuracy`], [`difference`] | how far a design is from the f64 oracle, at rest and moving |
 //! | [`held_out`] | how well an interpolation predicts a measured model it has not seen |
-//! | [`cost`], [`cortex_m`] | executed instructions, bytes, time |
+//! | [`cost`], [`cortex_m`] | executed instructions, bytes |
 //! | [`kept`] | what `--fidelity auto` keeps of a material |
 //! | [`mod@measure`], [`summary`], [`front`] | every design on every material, and which designs no other beats |
 //! | [`noise`], [`statistics`] | seeded noise; percentiles and levels |

@@ -28,8 +28,6 @@ pub struct VariantSummary {
     /// Executed instructions a tick of mixing, conversion and synthesis. They are counted at the
     /// commonest orders; for `auto` they are the mean over the materials.
     pub instructions: Option<f64>,
-    /// Time divided by that of the default.
-    pub time_ratio: Option<f64>,
     /// Median of the bytes of an asset.
     pub bytes: Option<usize>,
     /// RMS log-spectral distortion at rest, dB.
@@ -57,7 +55,7 @@ impl VariantSummary {
     }
 }
 
-/// Summarises a variant's rows, without instructions and time, which are measured elsewhere.
+/// Summarises a variant's rows, without instructions, which are counted elsewhere.
 pub(super) fn summarised(variant: Variant, rows: &[&Measurement]) -> VariantSummary {
     let all = |list: fn(&Errors) -> &Vec<f64>| -> Option<Spread> {
         let values: Vec<f64> = rows
@@ -83,7 +81,6 @@ pub(super) fn summarised(variant: Variant, rows: &[&Measurement]) -> VariantSumm
     VariantSummary {
         variant,
         instructions: None,
-        time_ratio: None,
         bytes: percentile(&bytes, 0.5).map(|b| b as usize),
         distortion_db: all(|e| &e.distortion_db),
         level_db: all(|e| &e.level_db),

@@ -2,7 +2,7 @@
 //!
 //! | file | each row | columns |
 //! |---|---|---|
-//! | `summary.csv` | a design over all materials | factor, name, the eight settings; instructions a tick, Cortex-M4F instructions where given, time ratio, bytes; median, p95 and max (dB) of distortion, level, moving level, moving error and alternation; fraction of unstable places, number of materials with an unstable place |
+//! | `summary.csv` | a design over all materials | factor, name, the eight settings; instructions a tick, Cortex-M4F instructions where given, bytes; median, p95 and max (dB) of distortion, level, moving level, moving error and alternation; fraction of unstable places, number of materials with an unstable place |
 //! | `designs.csv` | a design on a material | factor, name, material, poles, zeros, bytes; the same errors; number of unstable places and of all places |
 //! | `held-out.csv` | a method in a region over all materials | what is varied, method, region, models, refused; median, p95, max of distortion, of shape alone and of the absolute level error, median of the signed one (dB); fraction of models to which it is nearer than the product's method |
 //! | `fidelity.csv` | what `auto` keeps of a material | material, poles, zeros, vertices, triangles, tap samples, instructions and bytes, each whole and kept; ratio of instructions; p95 and worst (dB) |
@@ -64,7 +64,6 @@ pub fn summary(results: &Results, cortex_m: &CortexM) -> Result<Vec<u8>, csv::Er
         "lsf_bits",
         "instructions_a_tick",
         "cortex_m4f_instructions_a_tick",
-        "time_ratio",
         "bytes",
     ]);
     for what in [
@@ -90,7 +89,6 @@ pub fn summary(results: &Results, cortex_m: &CortexM) -> Result<Vec<u8>, csv::Er
         row.extend([
             optional(summary.instructions),
             optional(cortex.copied()),
-            optional(summary.time_ratio),
             summary.bytes.map(|b| b.to_string()).unwrap_or_default(),
         ]);
         for errors in [

@@ -39,9 +39,6 @@ pub(crate) struct Arguments {
     /// Quick run of less than a minute: six materials, half a second of motion, no counting
     #[arg(long)]
     quick: bool,
-    /// Also time every kernel against the default; the result depends on the machine
-    #[arg(long)]
-    time: bool,
     /// Instructions per tick on a Cortex-M4F, CSV: factor,name,instructions
     #[arg(long, value_name = "FILE.csv")]
     cortex_m: Option<PathBuf>,
@@ -74,7 +71,6 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         seed: arguments.seed,
         seconds: if arguments.quick { 0.5 } else { 4.0 },
         instructions: !arguments.quick,
-        time: arguments.time,
     };
     let bar = console.bar(steps(textures.len()), "measuring");
     let results = measure(&textures, &options, || bar.inc(1));
