@@ -39,8 +39,6 @@ pub struct Errors {
     pub level_db: Vec<f64>,
     /// Absolute error of a block's level while the hand moves, dB.
     pub moving_level_db: Vec<f64>,
-    /// RMS of the difference of the samples, relative to the oracle's RMS, dB.
-    pub moving_error_db: f64,
     /// RMS while every sample is queried at one of two vertices at random, relative to the
     /// louder of the two at rest, dB.
     pub alternation_db: Vec<f64>,
@@ -126,7 +124,6 @@ impl Truth {
         };
         let Some(mut kernel) = Kernel::new(design, grid) else {
             errors.unstable = errors.places;
-            errors.moving_error_db = f64::INFINITY;
             return errors;
         };
         self.at_rest(&mut kernel, &mut errors);
@@ -157,12 +154,6 @@ impl Truth {
         };
         kernel.settle(first);
         let rendered = kernel.render(&self.motion, &self.epsilon);
-        let difference: Vec<f64> = rendered
-            .iter()
-            .zip(&self.moving)
-            .map(|(x, y)| x - y)
-            .collect();
-        errors.moving_error_db = decibels(rms(&difference) / rms(&self.moving));
         let levels = |signal: &[f64]| signal.chunks(self.block).map(rms).collect::<Vec<_>>();
         let truth = levels(&self.moving);
         let loudest = truth.iter().copied().fold(0.0, f64::max);
@@ -266,7 +257,6 @@ mod tests {
         let errors = truth.errors(&Design::ORACLE, &grid);
         assert_eq!(errors.unstable, 0);
         assert!(spread(&errors.distortion_db).max < 1e-9);
-        assert_eq!(errors.moving_error_db, f64::NEG_INFINITY);
         assert_eq!(spread(&errors.moving_level_db).max, 0.0);
     }
 
@@ -287,7 +277,6 @@ mod tests {
         ] {
             assert!(list.iter().all(|db| (db - twice).abs() < 1e-9));
         }
-        assert!(errors.moving_error_db.abs() < 1e-9);
     }
 
     #[test]

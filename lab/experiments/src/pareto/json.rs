@@ -4,8 +4,7 @@ use super::measure::Results;
 use super::statistics::{Spread, percentile};
 use super::summary::VariantSummary;
 
-/// The comparison as JSON: the figures of `summary.csv` and of what `auto` keeps that a
-/// program is likely to read.
+/// The comparison as JSON: the figures of `tables.md` that a program is likely to read.
 #[must_use]
 pub fn encode(results: &Results) -> serde_json::Value {
     let spread = |s: Option<Spread>| {

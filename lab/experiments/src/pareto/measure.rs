@@ -33,8 +33,6 @@ pub struct Options {
 pub struct Results {
     /// Names of the materials.
     pub materials: Vec<String>,
-    /// Every variant on every material.
-    pub rows: Vec<Measurement>,
     /// Every variant over all materials, in the order of [`variants`].
     pub summaries: Vec<VariantSummary>,
     /// Predictions of held-out models, one list for each material.
@@ -73,7 +71,6 @@ pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + S
     let common = commonest(textures);
     let counter = Counter::default();
     let wanted = options.instructions.then_some(&counter);
-    let rows: Vec<Measurement> = measured.iter().flat_map(|m| m.rows.clone()).collect();
     let mut failed = None;
     let mut count = |design: &Design, orders: Orders| {
         let counted = wanted?.instructions(design, orders);
@@ -86,12 +83,10 @@ pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + S
         .iter()
         .enumerate()
         .map(|(index, variant)| {
-            let mine: Vec<&Measurement> = rows.iter().filter(|row| row.variant == index).collect();
+            let mine: Vec<&Measurement> = measured.iter().map(|m| &m.rows[index]).collect();
             let instructions = instructions(variant, &mine, common, &mut count);
-            let mut summary = summarised(variant.clone(), &mine);
-            summary.instructions = instructions;
             done();
-            summary
+            summarised(variant.clone(), &mine, instructions)
         })
         .collect();
     let kept = measured
@@ -105,7 +100,6 @@ pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + S
         .collect();
     Results {
         materials: textures.iter().map(|t| t.name.clone()).collect(),
-        rows,
         summaries,
         exponents: measured.iter().map(|m| m.exponents).collect(),
         kept,
@@ -117,6 +111,7 @@ pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + S
 
 /// Measurements on a material.
 struct Measured {
+    /// A row for each variant.
     rows: Vec<Measurement>,
     held_out: Vec<Prediction>,
     exponents: (f64, f64),
@@ -130,8 +125,7 @@ impl Measured {
         let grids = Grids::of(&texture.grid);
         let rows = variants
             .iter()
-            .enumerate()
-            .map(|(variant, Variant { design, .. })| {
+            .map(|Variant { design, .. }| {
                 let grid = grids.at(design.order);
                 let errors = match (&truth, &grid) {
                     (Some(truth), Some(grid)) => truth.errors(design, grid),
@@ -139,8 +133,6 @@ impl Measured {
                 };
                 let grid = grid.unwrap_or_else(|| texture.grid.clone());
                 Measurement {
-                    material: index,
-                    variant,
                     orders: cost::orders(&grid),
                     bytes: cost::bytes(texture, &grid, design.lsf_bits),
                     errors,
@@ -263,9 +255,7 @@ mod tests {
                 .install(|| measure(&textures, &options, || ()))
         };
         let (one, two) = (run(1), run(2));
-        for (x, y) in one.rows.iter().zip(&two.rows) {
-            assert_eq!(x.errors, y.errors);
-        }
-        assert_eq!(one.rows.len(), 2 * variants().len());
+        assert_eq!(one.summaries, two.summaries);
+        assert_eq!(one.summaries.len(), variants().len());
     }
 }

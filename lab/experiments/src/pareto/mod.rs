@@ -13,7 +13,7 @@
 //! | [`kept`] | what `--fidelity auto` keeps of a material |
 //! | [`mod@measure`], [`summary`], [`front`] | every design on every material, and which designs no other beats |
 //! | [`noise`], [`statistics`] | seeded noise; percentiles and levels |
-//! | [`table`], [`json`], [`markdown`] | results as CSV, as JSON, as tables of the documentation |
+//! | [`json`], [`markdown`] | results as JSON, as tables of the documentation |
 //! | [`chart`] | the pictures |
 
 pub mod accuracy;
@@ -32,4 +32,3 @@ pub mod measure;
 pub mod noise;
 pub mod statistics;
 pub mod summary;
-pub mod table;

@@ -7,7 +7,7 @@ use asperity_console::Console;
 use asperity_experiments::pareto::cortex_m::{self, CortexM};
 use asperity_experiments::pareto::held_out::summaries;
 use asperity_experiments::pareto::measure::{Options, Results, measure, steps};
-use asperity_experiments::pareto::{chart, json, markdown, material, table};
+use asperity_experiments::pareto::{chart, json, markdown, material};
 use asperity_io::diagnostic::{Failures, one};
 use asperity_io::input::{self, InputError, Kind};
 use asperity_io::output;
@@ -25,10 +25,9 @@ use crate::error::{Plain, all};
   asperity-lab pareto --hatt hatt/models -o charts   your own copy of the HaTT
   asperity-lab pareto --quick --json                    a few materials, no counting
 
-Writes summary.csv, designs.csv, held-out.csv, fidelity.csv, their tables.md, and charts as
-.svg and .png. If valgrind is installed, it counts the instructions per tick, at the most
-common orders of the materials. --cortex-m adds the counts of a firmware bench
-(factor,name,instructions).")]
+Writes tables.md, and charts as .svg and .png. If valgrind is installed, it counts the
+instructions per tick, at the most common orders of the materials. --cortex-m adds the counts
+of a firmware bench (factor,name,instructions).")]
 pub(crate) struct Arguments {
     /// Folder of HaTT models [default: the reference corpus]
     #[arg(long, value_name = "DIR")]
@@ -125,25 +124,10 @@ fn write(
     cortex_m: &CortexM,
 ) -> Result<(), Failures> {
     let held_out = summaries(&results.held_out);
-    let encode = |result: Result<Vec<u8>, csv::Error>| {
-        result.map_err(|error| Plain::failure(error, "report this"))
-    };
-    let mut files = vec![
-        (
-            "summary.csv".to_owned(),
-            encode(table::summary(results, cortex_m))?,
-        ),
-        ("designs.csv".to_owned(), encode(table::designs(results))?),
-        (
-            "held-out.csv".to_owned(),
-            encode(table::held_out(&held_out))?,
-        ),
-        ("fidelity.csv".to_owned(), encode(table::fidelity(results))?),
-        (
-            "tables.md".to_owned(),
-            markdown::tables(results, &held_out, cortex_m).into_bytes(),
-        ),
-    ];
+    let mut files = vec![(
+        "tables.md".to_owned(),
+        markdown::tables(results, &held_out, cortex_m).into_bytes(),
+    )];
     for (name, picture) in
         chart::all(results, &held_out).map_err(|e| Plain::failure(e, "report this"))?
     {
