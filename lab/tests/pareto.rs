@@ -55,8 +55,6 @@ fn a_quick_run_writes_every_table_and_chart_twice_the_same() {
             "fidelity.svg",
             "front.png",
             "front.svg",
-            "held-out.png",
-            "held-out.svg",
             "tables.md",
         ]
     );

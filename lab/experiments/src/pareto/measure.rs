@@ -3,7 +3,6 @@
 use super::{
     accuracy::{Errors, Truth},
     cost::{self, CountError, Counter},
-    held_out::{self, Prediction},
     kept::Kept,
     summary::{Measurement, VariantSummary, summarised},
 };
@@ -35,10 +34,6 @@ pub struct Results {
     pub materials: Vec<String>,
     /// Every variant over all materials, in the order of [`variants`].
     pub summaries: Vec<VariantSummary>,
-    /// Predictions of held-out models, one list for each material.
-    pub held_out: Vec<Vec<Prediction>>,
-    /// Exponents of speed and force, one pair for each material.
-    pub exponents: Vec<(f64, f64)>,
     /// Each material as `auto` reduces it.
     pub kept: Vec<Kept>,
     /// The orders that instructions were counted at.
@@ -101,9 +96,7 @@ pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + S
     Results {
         materials: textures.iter().map(|t| t.name.clone()).collect(),
         summaries,
-        exponents: measured.iter().map(|m| m.exponents).collect(),
         kept,
-        held_out: measured.into_iter().map(|m| m.held_out).collect(),
         common,
         not_counted: failed,
     }
@@ -113,8 +106,6 @@ pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + S
 struct Measured {
     /// A row for each variant.
     rows: Vec<Measurement>,
-    held_out: Vec<Prediction>,
-    exponents: (f64, f64),
     kept: Kept,
 }
 
@@ -143,8 +134,6 @@ impl Measured {
         let bytes = |texture: &TextureModel| cost::bytes(texture, &texture.grid, 16);
         Self {
             rows,
-            held_out: held_out::predictions(&texture.grid),
-            exponents: held_out::exponents(&texture.grid),
             kept: Kept {
                 report: reduction.report,
                 orders: (

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use asperity::sources::hatt;
 use asperity_console::Console;
 use asperity_experiments::pareto::cortex_m::{self, CortexM};
-use asperity_experiments::pareto::held_out::summaries;
 use asperity_experiments::pareto::measure::{Options, Results, measure, steps};
 use asperity_experiments::pareto::{chart, json, markdown, material};
 use asperity_io::diagnostic::{Failures, one};
@@ -17,8 +16,8 @@ use crate::error::{Plain, all};
 /// Measure the trade-off between speed and accuracy over many materials
 ///
 /// Every design factor of the tick is varied from its default, alone and in some combinations.
-/// Errors are relative to the f64 oracle, at rest and in motion; measured models are also
-/// predicted from their neighbours. The same seed gives the same tables.
+/// Errors are relative to the f64 oracle, at rest and in motion. The same seed gives the same
+/// tables.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   asperity-lab pareto -o charts                      the reference corpus
@@ -123,14 +122,11 @@ fn write(
     results: &Results,
     cortex_m: &CortexM,
 ) -> Result<(), Failures> {
-    let held_out = summaries(&results.held_out);
     let mut files = vec![(
         "tables.md".to_owned(),
-        markdown::tables(results, &held_out, cortex_m).into_bytes(),
+        markdown::tables(results, cortex_m).into_bytes(),
     )];
-    for (name, picture) in
-        chart::all(results, &held_out).map_err(|e| Plain::failure(e, "report this"))?
-    {
+    for (name, picture) in chart::all(results).map_err(|e| Plain::failure(e, "report this"))? {
         files.push((format!("{name}.svg"), picture.svg.into_bytes()));
         files.push((format!("{name}.png"), picture.png));
     }
