@@ -24,9 +24,9 @@ use crate::error::{Plain, all};
   asperity-lab pareto --hatt hatt/models -o charts   your own copy of the HaTT
   asperity-lab pareto --quick --json                    a few materials, no counting
 
-Writes tables.md, and charts as .svg and .png. If valgrind is installed, it counts the
-instructions per tick, at the most common orders of the materials. --cortex-m adds the counts
-of a firmware bench (factor,name,instructions).")]
+Writes tables.md, and charts as .png. If valgrind is installed, it counts the instructions per
+tick, at the most common orders of the materials. --cortex-m adds the counts of a firmware
+bench (factor,name,instructions).")]
 pub(crate) struct Arguments {
     /// Folder of HaTT models [default: the reference corpus]
     #[arg(long, value_name = "DIR")]
@@ -123,16 +123,13 @@ fn write(
     cortex_m: &CortexM,
 ) -> Result<(), Failures> {
     let mut files = vec![(
-        "tables.md".to_owned(),
+        "tables.md",
         markdown::tables(results, cortex_m).into_bytes(),
     )];
-    for (name, picture) in chart::all(results).map_err(|e| Plain::failure(e, "report this"))? {
-        files.push((format!("{name}.svg"), picture.svg.into_bytes()));
-        files.push((format!("{name}.png"), picture.png));
-    }
+    files.extend(chart::all(results).map_err(|e| Plain::failure(e, "report this"))?);
     let named: Vec<(String, &[u8])> = files
         .iter()
-        .map(|(name, bytes)| (name.clone(), bytes.as_slice()))
+        .map(|(name, bytes)| ((*name).to_owned(), bytes.as_slice()))
         .collect();
     output::write_folder_beside(inputs, folder, &named).map_err(one)
 }

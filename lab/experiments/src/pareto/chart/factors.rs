@@ -4,7 +4,6 @@ use super::costs::Costs;
 use super::errors::{BUDGET, error_axis, within};
 use super::labels::Labels;
 use super::mark::{DEFAULT, UNSTABLE, mark, of_factor};
-use super::picture::{Picture, finished};
 use crate::pareto::measure::Results;
 use crate::pareto::summary::VariantSummary;
 use asperity::passes::reduce::BUDGET_DB;
@@ -47,8 +46,8 @@ impl Measure {
     }
 }
 
-pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
-    let mut canvas = Canvas::recording(SIZE.0 as u32, SIZE.1 as u32)?;
+pub(super) fn draw(results: &Results) -> Result<Vec<u8>, PlotError> {
+    let mut canvas = Canvas::new(SIZE.0 as u32, SIZE.1 as u32)?;
     let costs = Costs::of(results);
     let (width, height) = (SIZE.0 / COLUMNS as f32, (SIZE.1 - LEGEND) / 4.0);
     let keys = [
@@ -69,7 +68,7 @@ pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
         );
         draw_factor(&mut canvas, results, &costs, (index, factor), outer);
     }
-    finished(&canvas)
+    canvas.png()
 }
 
 fn draw_factor(

@@ -1,4 +1,4 @@
-//! The pictures of a comparison, each as SVG and PNG.
+//! The pictures of a comparison.
 
 mod costs;
 mod errors;
@@ -7,21 +7,18 @@ mod fidelity;
 mod front;
 mod labels;
 mod mark;
-mod picture;
-
-pub use picture::Picture;
 
 use super::measure::Results;
 use asperity_plot::PlotError;
 
-/// Every picture by the name of its file: `front`, `factors`, `fidelity`.
+/// The PNG of every picture, by the name of its file.
 ///
 /// # Errors
 /// [`PlotError`] of the encoder.
-pub fn all(results: &Results) -> Result<Vec<(&'static str, Picture)>, PlotError> {
+pub fn all(results: &Results) -> Result<Vec<(&'static str, Vec<u8>)>, PlotError> {
     Ok(vec![
-        ("front", front::draw(results)?),
-        ("factors", factors::draw(results)?),
-        ("fidelity", fidelity::draw(results)?),
+        ("front.png", front::draw(results)?),
+        ("factors.png", factors::draw(results)?),
+        ("fidelity.png", fidelity::draw(results)?),
     ])
 }
