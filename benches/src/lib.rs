@@ -3,7 +3,6 @@
 #![forbid(unsafe_code)]
 
 pub mod callgrind;
-pub mod evict;
 pub mod load;
 pub mod motion;
 pub mod queries;
