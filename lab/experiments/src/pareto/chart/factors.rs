@@ -114,7 +114,7 @@ fn draw_factor(
         if summary.unstable > 0.0 {
             text += &format!(" ({:.2} % unstable)", 100.0 * summary.unstable);
         }
-        labels.set(canvas, &text, panel.position(x, y), ink::BLACK);
+        labels.set(canvas, &text, panel.position(x, y));
     }
 }
 

@@ -86,7 +86,7 @@ pub(super) fn draw(results: &Results) -> Result<Vec<u8>, PlotError> {
         if summary.unstable > 0.0 {
             text += &format!(" ({:.2} % unstable)", 100.0 * summary.unstable);
         }
-        labels.set(&mut canvas, &text, at, ink::BLACK);
+        labels.set(&mut canvas, &text, at);
     }
     canvas.png()
 }
