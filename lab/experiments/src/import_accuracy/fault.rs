@@ -138,7 +138,7 @@ pub fn faulty(
             file
         }
     };
-    write(&measured, &sensors, &texture.name, folder, "mm")?;
+    write(&measured, &sensors, &texture.name, folder)?;
     Ok(file)
 }
 

@@ -111,7 +111,7 @@ pub fn record(
     folder: &Path,
 ) -> io::Result<()> {
     let measured = measure(performance, &texture.taps, sensors, seed);
-    write(&measured, sensors, &texture.name, folder, "mm")
+    write(&measured, sensors, &texture.name, folder)
 }
 
 /// Samples of every sensor.
@@ -303,7 +303,6 @@ pub(super) fn write(
     sensors: &Sensors,
     name: &str,
     folder: &Path,
-    position_unit: &str,
 ) -> io::Result<()> {
     let spec = hound::WavSpec {
         channels: 3,
@@ -354,13 +353,10 @@ pub(super) fn write(
         csv.push('\n');
     }
     fs::write(folder.join("position.csv"), csv)?;
-    fs::write(
-        folder.join("recording.toml"),
-        description(sensors, name, position_unit),
-    )
+    fs::write(folder.join("recording.toml"), description(sensors, name))
 }
 
-fn description(sensors: &Sensors, name: &str, position_unit: &str) -> String {
+fn description(sensors: &Sensors, name: &str) -> String {
     let mut text = format!(
         "name = {name:?}\ndevice = \"simulated bench\"\n\n[tool]\nname = \"stylus\"\nmass_kg = 0.05\n"
     );
@@ -397,7 +393,7 @@ fn description(sensors: &Sensors, name: &str, position_unit: &str) -> String {
         "position.csv",
         "clock = \"time_s\"",
         "position",
-        position_unit,
+        "mm",
         &columns[..if sensors.has_height { 3 } else { 2 }],
         "",
     );
