@@ -73,7 +73,10 @@ fn depth(text: &str) -> Result<f32, String> {
 pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failures> {
     let uri = parse(&arguments.uri)?;
     if uri.scheme == Scheme::Touch {
-        return Err(super::touch_cannot_be_driven());
+        return Err(Plain::failure(
+            "a Touch cannot be driven over USB, because its protocol is not public",
+            "install the vendor's OpenHaptics and its driver, and use `openhaptics:`",
+        ));
     }
     let bug = |error: &dyn std::fmt::Display| Plain::failure(error, "report this as a bug");
     let lowered =
