@@ -10,6 +10,7 @@ use asperity_experiments::import_accuracy::{
 use asperity_io::diagnostic::{Failures, one};
 
 use crate::error::Plain;
+use crate::loop_options::within;
 
 /// Materials of the learned model that are decoded where no HaTT is given.
 const REFERENCE: usize = 24;
@@ -33,7 +34,7 @@ pub(crate) struct Arguments {
     hatt: Option<PathBuf>,
     /// Seconds of strokes, one or more values; time in the air and taps are added. With --output, the
     /// length of the whole recording
-    #[arg(long, value_name = "S,…", value_delimiter = ',', default_value = "60", value_parser = seconds)]
+    #[arg(long, value_name = "S,…", value_delimiter = ',', default_value = "60", value_parser = within(3.0..=1200.0, " s"))]
     seconds: Vec<f64>,
     /// Stroke freely: speed and force change all the time
     #[arg(long)]
@@ -85,13 +86,6 @@ impl Arguments {
         sensors.resonance = self.resonance;
         sensors.free_taps = usize::from(self.free_taps);
         sensors.has_height = !self.no_height;
-    }
-}
-
-fn seconds(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(value) if (3.0..=1200.0).contains(&value) => Ok(value),
-        _ => Err("must be 3 to 1200 s".into()),
     }
 }
 

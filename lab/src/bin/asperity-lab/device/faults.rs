@@ -15,6 +15,7 @@ use asperity_runtime::{Config, HostTexture};
 use serde_json::json;
 
 use super::probe::parse;
+use crate::loop_options::within;
 use crate::error::Plain;
 
 /// Inject every kind of fault while a device is in contact, and record the force
@@ -35,10 +36,10 @@ pub(crate) struct Arguments {
     #[arg(value_name = "URI")]
     uri: String,
     /// Force limit, N (0.1 to 8.9), or the limit of the device if that is lower
-    #[arg(long, value_name = "N", default_value_t = 1.0, value_parser = peak)]
+    #[arg(long, value_name = "N", default_value_t = 1.0, value_parser = within(0.1_f32..=8.9, " N"))]
     peak_n: f32,
     /// Initial depth of the device in the surface, mm (1 to 60)
-    #[arg(long, value_name = "MM", default_value_t = 5.0, value_parser = depth)]
+    #[arg(long, value_name = "MM", default_value_t = 5.0, value_parser = within(1.0_f32..=60.0, " mm"))]
     depth_mm: f32,
     /// Timeout for the first position, s (1 to 600); homing a Falcon takes a while
     #[arg(long, value_name = "S", default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..=600))]
@@ -52,22 +53,6 @@ pub(crate) struct Arguments {
 const TRIES: u32 = 5;
 /// Periods before a fault.
 const WARM_UP: u32 = 300;
-
-fn peak(text: &str) -> Result<f32, String> {
-    let value = text
-        .parse()
-        .ok()
-        .filter(|value| (0.1..=8.9).contains(value));
-    value.ok_or_else(|| "must be 0.1 to 8.9 N".into())
-}
-
-fn depth(text: &str) -> Result<f32, String> {
-    let value = text
-        .parse()
-        .ok()
-        .filter(|value| (1.0..=60.0).contains(value));
-    value.ok_or_else(|| "must be 1 to 60 mm".into())
-}
 
 /// Gives whether every promise was kept.
 pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failures> {

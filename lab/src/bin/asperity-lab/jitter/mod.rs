@@ -12,7 +12,7 @@ use asperity_host::servo::Stage;
 use asperity_io::diagnostic::Failures;
 use asperity_lab::jitter::Unit;
 
-use crate::loop_options::{self, LoopOptions};
+use crate::loop_options::{LoopOptions, within};
 
 /// Inputs accepted by `compare` and `overlay`.
 const FILES: &str =
@@ -45,10 +45,10 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     options: LoopOptions,
     /// Device to read and drive; the default is no device, resting 1 mm deep in the texture
-    #[arg(long, value_name = "URI", value_parser = loop_options::device, default_value = "null:?z_mm=-1")]
+    #[arg(long, value_name = "URI", default_value = "null:?z_mm=-1")]
     device: Uri,
     /// Duration of the measurement, s (0.1 to 86400)
-    #[arg(long, value_name = "S", value_parser = loop_options::seconds, default_value = "10")]
+    #[arg(long, value_name = "S", value_parser = within(0.1..=86_400.0, " s"), default_value = "10")]
     seconds: f64,
     /// Inject a delay into one tick in EVERY, to test the measurement: STAGE:MICROSECONDS:EVERY
     #[arg(long, value_name = "DELAY")]
