@@ -2,11 +2,12 @@
 //! states of a device.
 
 use crate::fakes;
-use std::io::{BufRead as _, BufReader, Read as _};
+use std::io::{BufRead as _, BufReader, Read as _, Write as _};
+use std::net::TcpStream;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-use asperity_virtual_usb::usbip::client::Client;
+use asperity_virtual_usb::usbip::wire::{GRANTED, RECORD, REQUEST_LIST, operation, take};
 
 fn lab(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_asperity-lab"))
@@ -287,13 +288,19 @@ fn a_server_says_where_it_listens_and_ends_with_its_input() {
         .trim()
         .strip_prefix("listening at ")
         .expect("the address");
-    let list = Client::connect(address).and_then(|mut client| client.list());
-    let ids: Vec<_> = list
-        .expect("a list")
-        .iter()
-        .map(|device| device.ids)
-        .collect();
-    assert_eq!(ids, [(0x0403, 0xcb48), (0x2988, 0x0304)]);
+    let mut stream = TcpStream::connect(address).expect("a connection");
+    let request = operation(REQUEST_LIST, GRANTED);
+    stream.write_all(&request).expect("a request");
+    take::<12>(&mut stream).expect("the reply and the count");
+    let ids = [(); 2].map(|()| {
+        let record = take::<RECORD>(&mut stream).expect("a device");
+        for _ in 0..record[311] {
+            take::<4>(&mut stream).expect("an interface");
+        }
+        [record[300], record[301], record[302], record[303]]
+    });
+    assert_eq!(ids, [[0x04, 0x03, 0xcb, 0x48], [0x29, 0x88, 0x03, 0x04]]);
+    drop(stream);
     drop(server.stdin.take());
     let mut rest = String::new();
     output.read_to_string(&mut rest).expect("the summary");
