@@ -7,7 +7,6 @@ use asperity_host::device::falcon::Falcon;
 use asperity_host::device::falcon::settings::Settings;
 use asperity_host::device::fault_injection::InjectedFault;
 use asperity_host::device::fault_injection::trial::{Paced, Trial};
-use asperity_host::fault_plan::FaultKind as _;
 use asperity_runtime::{Config, HostTexture};
 use asperity_virtual_usb::falcon::Falcon as Virtual;
 use asperity_virtual_usb::{Port, Socket};

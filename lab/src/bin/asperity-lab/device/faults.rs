@@ -7,7 +7,6 @@ use asperity_formats::Asset;
 use asperity_host::device::Scheme;
 use asperity_host::device::fault_injection::InjectedFault;
 use asperity_host::device::fault_injection::trial::{Paced, Row, Trial};
-use asperity_host::fault_plan::FaultKind as _;
 use asperity_io::diagnostic::{Failures, one};
 use asperity_io::shown::counted;
 use asperity_lab::servo_session;
@@ -15,8 +14,8 @@ use asperity_runtime::{Config, HostTexture};
 use serde_json::json;
 
 use super::probe::parse;
-use crate::loop_options::within;
 use crate::error::Plain;
+use crate::loop_options::within;
 
 /// Inject every kind of fault while a device is in contact, and record the force
 ///
