@@ -90,13 +90,13 @@ impl Sensors {
 
 /// Sensor data, in the units of the files.
 #[derive(Debug, Clone)]
-pub(super) struct Measured {
+struct Measured {
     /// m/s², at the accelerometer's rate.
-    pub(super) accel: [Vec<f32>; 3],
+    accel: [Vec<f32>; 3],
     /// N.
-    pub(super) force: [Vec<f32>; 3],
+    force: [Vec<f32>; 3],
     /// mm.
-    pub(super) position: [Vec<f32>; 3],
+    position: [Vec<f32>; 3],
 }
 
 /// Writes a recording of a performance into a folder.
@@ -115,12 +115,7 @@ pub fn record(
 }
 
 /// Samples of every sensor.
-pub(super) fn measure(
-    performance: &Performance,
-    taps: &TapBank,
-    sensors: &Sensors,
-    seed: u64,
-) -> Measured {
+fn measure(performance: &Performance, taps: &TapBank, sensors: &Sensors, seed: u64) -> Measured {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let mut gauss = || (0..12).map(|_| unit(&mut rng)).sum::<f64>() - 6.0;
     let records = &performance.records;
@@ -298,12 +293,7 @@ pub(super) fn tap_at(taps: &TapBank, speed_m_s: f64) -> Option<Vec<f64>> {
 }
 
 /// Writes the files: acceleration as WAV of 24 bits, force as NumPy, position as CSV.
-pub(super) fn write(
-    measured: &Measured,
-    sensors: &Sensors,
-    name: &str,
-    folder: &Path,
-) -> io::Result<()> {
+fn write(measured: &Measured, sensors: &Sensors, name: &str, folder: &Path) -> io::Result<()> {
     let spec = hound::WavSpec {
         channels: 3,
         sample_rate: sensors.accel_hz as u32,
