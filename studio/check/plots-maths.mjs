@@ -2,7 +2,6 @@
 import { contour } from "../page/plots/contour.js";
 import { Fft } from "../page/plots/fft.js";
 import { coefficients } from "../page/plots/friction.js";
-import { cosines, squaredMagnitudes } from "../page/plots/lsf.js";
 import { Playhead } from "../page/plots/playhead.js";
 import { BLOCK, COLUMN, Ring, WIDTH } from "../page/plots/ring.js";
 import { roundSteps, roundUp, Span } from "../page/plots/scale.js";
@@ -10,43 +9,6 @@ import { shortest } from "../page/plots/shortest.js";
 import { fail, near, numbers, same } from "./expect.mjs";
 
 const TICK_HZ = 16000;
-
-/** The power response by way of coefficients, which `lsf.js` does without. */
-function byCoefficients(lsf_rad, omega) {
-  const times = (a, b) =>
-    a.reduce((sum, x, i) => (b.forEach((y, j) => (sum[i + j] = (sum[i + j] ?? 0) + x * y)), sum), []);
-  const section = (w) => [1, -2 * Math.cos(w), 1];
-  const even = lsf_rad.length % 2 === 0;
-  const q = lsf_rad
-    .filter((_, k) => k % 2 === 0)
-    .map(section)
-    .reduce(times, even ? [1, 1] : [1]);
-  const p = lsf_rad
-    .filter((_, k) => k % 2 === 1)
-    .map(section)
-    .reduce(times, even ? [1, -1] : [1, 0, -1]);
-  const a = q.map((x, k) => 0.5 * (x + p[k]));
-  const part = (f) => a.reduce((sum, x, k) => sum + x * f(omega * k), 0);
-  near("monic", a[0], 1, 1e-12);
-  return part(Math.cos) ** 2 + part(Math.sin) ** 2;
-}
-
-export function checkLsf() {
-  const random = numbers(1);
-  let worst = 0;
-  for (const order of [1, 2, 3, 4, 7, 10]) {
-    const lsf_rad = Array.from({ length: order }, (_, k) => ((k + 0.3 + 0.6 * random()) / (order + 1)) * Math.PI);
-    for (let n = 0; n < 50; n++) {
-      const omega = random() * Math.PI;
-      const wanted = byCoefficients(lsf_rad, omega);
-      worst = Math.max(
-        worst,
-        near(`|A|² of order ${order}`, squaredMagnitudes(cosines(lsf_rad), [Math.cos(omega)])[0] / wanted, 1, 1e-9),
-      );
-    }
-  }
-  return `|A|² of orders 1 to 10 within ${worst.toExponential(0)} of its coefficients`;
-}
 
 export function checkFft() {
   const random = numbers(2);

@@ -72,8 +72,9 @@ export class Loader {
   /** Sound first: the picture may have to be drawn. */
   async #show(texture, signal) {
     const { server, state, surface, sound } = this.#parts;
-    sound.play(await server.asset(texture, signal));
-    state.set({ texture });
+    const asset = await server.asset(texture, signal);
+    sound.play(asset);
+    state.set({ texture, asset });
     Promise.all([server.picture(texture, signal), server.normals(texture, signal)])
       .then(([picture, normals]) => !signal.aborted && surface.show(picture, normals, texture.preview.width_mm))
       .then(() => withdraw("picture"))

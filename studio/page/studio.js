@@ -40,16 +40,18 @@ startFiles({ server, state, loader, gallery });
 state.on(["about"], ({ about }) => {
   if (about) document.documentElement.dataset.served = about.opens ? "server" : "files";
 });
-let plots = mountPlots(find("plots"), texts.plots);
+// The plots ask the module that also renders the sound.
+const runtime = server.file("asperity.wasm").then((bytes) => WebAssembly.instantiate(bytes)).then(({ instance }) => instance.exports);
+let plots = mountPlots(find("plots"), runtime, texts.plots);
 const hearTicks = (ticks) => plots.addTicks(ticks);
 sound.onticks.push(hearTicks);
-state.on(["texture"], ({ texture }) => plots.setTexture(texture && texture.inspect));
+state.on(["texture"], ({ texture, asset }) => plots.setTexture(texture && texture.inspect, asset));
 /** The plots show the device instead of the page's own hand. */
 const plotsOfDevice = (tick_hz) => {
   sound.onticks.splice(sound.onticks.indexOf(hearTicks), 1);
   plots.destroy();
-  plots = mountPlots(find("plots"), texts.plots, { tick_hz });
-  plots.setTexture(state.get("texture")?.inspect ?? null);
+  plots = mountPlots(find("plots"), runtime, texts.plots, { tick_hz });
+  plots.setTexture(state.get("texture")?.inspect ?? null, state.get("asset"));
   return plots;
 };
 startDevicePanel({ server, state, surface, plots: plotsOfDevice });

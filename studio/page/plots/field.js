@@ -2,7 +2,7 @@
 
 import { signed } from "./axes.js";
 import { viridis } from "./colormap.js";
-import { decibels } from "./level.js";
+import { decibels } from "./models.js";
 
 /** Colours of a picture: more than the eye tells apart. */
 const SHADES = 256;
@@ -13,16 +13,16 @@ const table = Uint32Array.from({ length: SHADES }, (_, n) => {
 });
 
 /** A canvas with the levels in colours, the quiet corner at the bottom left. */
-export function fieldPicture(levels, width, height) {
+export function fieldPicture(models, width, height) {
   const canvas = document.createElement("canvas");
   [canvas.width, canvas.height] = [width, height];
   const ctx = canvas.getContext("2d");
   const picture = ctx.createImageData(width, height);
   const pixels = new Uint32Array(picture.data.buffer);
-  const { low_db, high_db } = levels;
+  const { low_db, high_db } = models;
   for (let row = 0; row < height; row++) {
     for (let column = 0; column < width; column++) {
-      const rms = levels.between((column + 0.5) / width, 1 - (row + 0.5) / height);
+      const rms = models.between((column + 0.5) / width, 1 - (row + 0.5) / height);
       const share = (decibels(rms * rms) - low_db) / (high_db - low_db);
       pixels[row * width + column] = table[Math.round(Math.min(Math.max(share, 0), 1) * (SHADES - 1))];
     }

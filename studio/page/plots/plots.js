@@ -5,6 +5,7 @@ import { renderedCsv, trajectoryCsv } from "./csv.js";
 import { element } from "./figure.js";
 import { Force } from "./force.js";
 import { Friction } from "./friction.js";
+import { Models } from "./models.js";
 import { Plane } from "./plane.js";
 import { Scope } from "./scope.js";
 import { Spectrum } from "./spectrum.js";
@@ -17,13 +18,11 @@ import { Waveform } from "./waveform.js";
 const TICK_HZ = 16000;
 /** What can be scrolled back to and saved, s. */
 const HISTORY_S = 30;
-/** Time of a frame that sampling the levels of a new texture may take, ms. */
-const LEVELS_MS = 6;
 
 /**
- * Mounts the plots into `container`; `texts` as in `texts.js`. Returns
+ * Mounts the plots into `container`; `texts` as in `texts.js`, `runtime` promises the exports of `asperity.wasm`. Returns
  *
- *   setTexture(inspect)   the JSON of `asperity inspect --json`, or null
+ *   setTexture(inspect, asset)   the JSON of `asperity inspect --json`, and the asset for the worklet; or null
  *   addTicks(message)     a `ticks` message of the worklet
  *   freeze(on)            whether new ticks are left out, so that the old ones can be looked at
  *   csv(), trajectory()   the ticks kept, as `asperity render` writes and reads them
@@ -32,7 +31,7 @@ const LEVELS_MS = 6;
  *
  * The page links `plots.css`.
  */
-export function mountPlots(container, texts = english, { tick_hz = TICK_HZ, history_s = HISTORY_S } = {}) {
+export function mountPlots(container, runtime, texts = english, { tick_hz = TICK_HZ, history_s = HISTORY_S } = {}) {
   const scope = new Scope(tick_hz, history_s);
   const root = element("div", "plots");
   container.append(root);
@@ -42,15 +41,9 @@ export function mountPlots(container, texts = english, { tick_hz = TICK_HZ, hist
   };
 
   const stage = new Stage(root, (now_s) => {
-    let goes_on = false;
-    const { levels } = scope;
-    if (levels && !levels.isComplete && plane.isDrawable) {
-      goes_on = !levels.advance(performance.now() + LEVELS_MS, () => performance.now());
-      if (!goes_on) plane.dirty = true;
-    }
-    const moment = scope.advance(now_s);
-    if (moment.moved) live();
-    return goes_on || moment.goes_on;
+    const { moved, goes_on } = scope.advance(now_s);
+    if (moved) live();
+    return goes_on;
   });
 
   const showMoment = () => {
@@ -85,8 +78,9 @@ export function mountPlots(container, texts = english, { tick_hz = TICK_HZ, hist
   root.append(board);
 
   return {
-    setTexture(inspect) {
-      scope.setTexture(inspect);
+    async setTexture(inspect, asset) {
+      const loaded = await runtime;
+      scope.setTexture(inspect, inspect && new Models(loaded, asset, inspect.ar));
       plane.renew();
       spectrum.renew();
       stage.redrawAll();

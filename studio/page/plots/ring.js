@@ -4,17 +4,7 @@
 // has one row a tick. Least and greatest values of blocks of ticks are kept for long views.
 
 /** What a tick's nine numbers are, in the order of the worklet and of `asperity render`. */
-export const COLUMNS = [
-  "depth_mm",
-  "speed_mm_s",
-  "normal_force_n",
-  "vib_m_s2",
-  "tap_n",
-  "friction_n",
-  "fx_n",
-  "fy_n",
-  "fz_n",
-];
+export const COLUMNS = ["depth_mm", "speed_mm_s", "normal_force_n", "vib_m_s2", "tap_n", "friction_n", "fx_n", "fy_n", "fz_n"];
 export const WIDTH = COLUMNS.length;
 export const COLUMN = Object.fromEntries(COLUMNS.map((name, k) => [name, k]));
 /** The bits of `flags` that are looked at (`runtime/src/events.rs`). */
@@ -106,6 +96,11 @@ export class Ring {
   /** A number of a tick that is kept. */
   at(tick, column) {
     return this.columns[WIDTH * (tick % this.capacity) + column];
+  }
+
+  /** Speed and force of a tick, for which a model is asked. */
+  query(tick) {
+    return { speed_mm_s: this.at(tick, COLUMN.speed_mm_s), force_n: this.at(tick, COLUMN.normal_force_n) };
   }
 
   flagsAt(tick) {

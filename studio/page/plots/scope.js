@@ -1,6 +1,5 @@
 // What all figures look at: the kept ticks, the moment that is shown, the texture, a chosen point.
 
-import { levelsOf } from "./levels.js";
 import { Playhead } from "./playhead.js";
 import { COLUMN, FLAG, Ring } from "./ring.js";
 
@@ -11,14 +10,15 @@ export class Scope {
     this.playhead = new Playhead(tick_hz);
     this.frozen = false;
     this.inspect = null;
-    this.levels = null;
+    /** The `Models` of the texture. */
+    this.models = null;
     /** { speed_mm_s, force_n, vertex } that pointer or keys chose in the plane. */
     this.chosen = null;
   }
 
-  setTexture(inspect) {
+  setTexture(inspect, models) {
     this.inspect = inspect;
-    this.levels = inspect ? levelsOf(inspect) : null;
+    this.models = models;
     this.chosen = null;
   }
 
@@ -59,11 +59,7 @@ export class Scope {
   get hand() {
     const tick = this.now - 1;
     if (!this.ring.has(tick)) return null;
-    return {
-      speed_mm_s: this.ring.at(tick, COLUMN.speed_mm_s),
-      force_n: this.ring.at(tick, COLUMN.normal_force_n),
-      touches: (this.ring.flagsAt(tick) & FLAG.contact) !== 0,
-    };
+    return { ...this.ring.query(tick), touches: (this.ring.flagsAt(tick) & FLAG.contact) !== 0 };
   }
 
   /** Acceleration of tick `tick`, m/s²: vibration and tap, as the sound has them. */
