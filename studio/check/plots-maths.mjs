@@ -1,10 +1,10 @@
 // What the live plots compute by themselves, against plainer ways to the same numbers.
-import { contour } from "../page/plots/contour.js";
 import { Fft } from "../page/plots/fft.js";
+import { contour } from "../page/plots/field.js";
 import { coefficients } from "../page/plots/friction.js";
-import { Playhead } from "../page/plots/playhead.js";
 import { BLOCK, COLUMN, Ring, WIDTH } from "../page/plots/ring.js";
 import { roundSteps, roundUp, Span } from "../page/plots/scale.js";
+import { Playhead } from "../page/plots/scope.js";
 import { shortest } from "../page/plots/shortest.js";
 import { fail, near, numbers, same } from "./expect.mjs";
 

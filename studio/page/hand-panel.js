@@ -1,11 +1,10 @@
 // The hand and its panel: force, the hand that moves by itself, and the readout.
 
 import { Auto } from "./auto.js";
-import { element, find, recall, remember } from "./dom.js";
+import { element, find, notify, recall, remember } from "./dom.js";
 import { Force } from "./force.js";
 import { Hand, now_s } from "./hand.js";
 import { followKeys } from "./keys.js";
-import { notify } from "./notices.js";
 import { PATHS } from "./path.js";
 import { followPointer } from "./pointer.js";
 import { meansOf, Readout } from "./readout.js";

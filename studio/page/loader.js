@@ -1,7 +1,7 @@
 // What a person asks of the server, and its textures to surface and sound; the latest request wins. While the server does
 // not answer, that is said and tried again.
 
-import { notify, withdraw } from "./notices.js";
+import { notify, withdraw } from "./dom.js";
 import { Refusal, Silence } from "./server.js";
 import { texts } from "./texts.js";
 

@@ -1,8 +1,7 @@
 // The panel of the sound: switch, level, meter, device, and what went wrong.
 
 import { startDevices } from "./devices.js";
-import { find } from "./dom.js";
-import { notify, withdraw } from "./notices.js";
+import { find, notify, withdraw } from "./dom.js";
 import { startOutput } from "./output/panel.js";
 import { Meter } from "./readout.js";
 import { texts } from "./texts.js";

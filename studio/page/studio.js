@@ -1,22 +1,64 @@
 // The page's entry: builds the parts and lets them hear of each other.
 
 import { startDevicePanel } from "./device/panel.js";
-import { fillTexts, find } from "./dom.js";
-import { startFiles } from "./files/files.js";
+import { fillTexts, find, notify, recall, remember } from "./dom.js";
+import { In } from "./files/in.js";
+import { Out } from "./files/out.js";
 import { startGallery } from "./gallery/gallery.js";
 import { startHandPanel } from "./hand-panel.js";
 import { Loader } from "./loader.js";
-import { notify } from "./notices.js";
 import { mountPlots } from "./plots/plots.js";
 import { Server } from "./server.js";
 import { Sound } from "./sound.js";
 import { startSoundPanel } from "./sound-panel.js";
-import { State } from "./state.js";
 import { startSteering } from "./steer/steer.js";
 import { Surface } from "./surface.js";
 import { texts } from "./texts.js";
 import { startTexturePanels } from "./texture-panels.js";
-import { startTheme } from "./theme.js";
+
+/** What the parts share. A part sets values; others hear of those that changed. */
+class State {
+  #values;
+  #listeners = new Map();
+
+  constructor(values) {
+    this.#values = { ...values };
+  }
+
+  get(name) {
+    return this.#values[name];
+  }
+
+  set(values) {
+    const changed = Object.keys(values).filter((name) => this.#values[name] !== values[name]);
+    Object.assign(this.#values, values);
+    const listeners = new Set(changed.flatMap((name) => this.#listeners.get(name) ?? []));
+    for (const listener of listeners) listener(this.#values);
+  }
+
+  /** Calls `listener` with all values now, and when one of the named ones changed. */
+  on(names, listener) {
+    for (const name of names) this.#listeners.set(name, [...(this.#listeners.get(name) ?? []), listener]);
+    listener(this.#values);
+  }
+}
+
+/** Light, dark, or what the system says. Colours are `light-dark()` pairs, so that the scheme alone decides. */
+function startTheme() {
+  const choices = ["auto", "light", "dark"];
+  const button = find("theme");
+  const apply = (choice) => {
+    document.documentElement.dataset.theme = choice;
+    button.textContent = texts.theme[choice];
+    remember("theme", choice);
+  };
+  const recalled = recall("theme", "auto");
+  apply(choices.includes(recalled) ? recalled : "auto");
+  button.addEventListener("click", () => {
+    const now = choices.indexOf(document.documentElement.dataset.theme);
+    apply(choices[(now + 1) % choices.length]);
+  });
+}
 
 find("unstarted").remove();
 const server = new Server();
@@ -35,7 +77,8 @@ const loader = new Loader({ server, state, surface, sound });
 startTexturePanels({ state, loader });
 startSteering({ server, state, loader, sound });
 const gallery = startGallery({ server, state, loader });
-startFiles({ server, state, loader, gallery });
+new Out({ server, state, loader });
+new In({ server, state, loader, gallery });
 // Static files show textures and make none.
 state.on(["about"], ({ about }) => {
   if (about) document.documentElement.dataset.served = about.opens ? "server" : "files";

@@ -1,8 +1,7 @@
 // The stage: the surface under a lamp that follows the hand, its scale, and where the hand touches.
 
 import { element, find } from "./dom.js";
-import { Lit } from "./lit.js";
-import { Plain } from "./plain.js";
+import { Lit, Plain } from "./lit.js";
 import { texts } from "./texts.js";
 import { View } from "./view.js";
 

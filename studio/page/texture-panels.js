@@ -1,6 +1,5 @@
-// What the page says about the texture: the prompt's reading, its neighbours, its facts.
+// What the page says about the texture: the prompt's reading, its neighbours, its facts, and its command lines.
 
-import { showCommand } from "./command.js";
 import { announce, element, find } from "./dom.js";
 import { Prompt } from "./prompt.js";
 import { certaintyText, showNearest, showReading } from "./reading.js";
@@ -15,6 +14,28 @@ function showFacts(texture) {
   find("facts").replaceChildren(
     element("span", {}, `${texts.surface.kilobytes(asset_bytes)} · ${texts.surface.rate(model_rate_hz)}`),
     ...(rerated ? [" ", element("span", { class: "badge" }, texts.surface.rerated(model_rate_hz, worklet_rate_hz))] : []));
+}
+
+/** The command lines that write the bytes of what is shown. */
+function showCommand(texture) {
+  const panel = find("command");
+  panel.hidden = !texture?.command;
+  if (panel.hidden) return panel.replaceChildren();
+  const code = element("code", { tabindex: "0", "aria-label": texts.command.label }, texture.command);
+  const copy = element("button", { type: "button", class: "quiet" }, texts.command.copy);
+  copy.addEventListener("click", async () => {
+    let said = texts.command.copied;
+    try {
+      await navigator.clipboard.writeText(texture.command);
+    } catch {
+      getSelection().selectAllChildren(code);
+      said = texts.command.selected;
+    }
+    copy.textContent = said;
+    announce(said);
+    setTimeout(() => (copy.textContent = texts.command.copy), 2000);
+  });
+  panel.replaceChildren(element("span", { class: "small" }, texts.command.label), code, copy);
 }
 
 function invite(compile) {

@@ -1,7 +1,6 @@
 // The device behind the server: what its loop does, how punctual it is, and what it plays.
 
-import { announce, element, find, recall, remember } from "../dom.js";
-import { notify, withdraw } from "../notices.js";
+import { announce, element, find, notify, recall, remember, withdraw } from "../dom.js";
 import { COLUMN, WIDTH } from "../plots/ring.js";
 import { texts } from "../texts.js";
 import { Feed } from "./feed.js";

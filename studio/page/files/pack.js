@@ -1,7 +1,6 @@
 // The textures that were on the surface in this session, to choose a library from.
 
-import { element } from "../dom.js";
-import { save } from "../save.js";
+import { element, save } from "../dom.js";
 import { Refusal } from "../server.js";
 import { texts } from "../texts.js";
 

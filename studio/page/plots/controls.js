@@ -1,6 +1,6 @@
 // The controls of the strip: freeze, scroll, save.
 
-import { save } from "../save.js";
+import { save } from "../dom.js";
 import { element } from "./figure.js";
 
 /** Ticks copied at once, a megabyte. */

@@ -2,9 +2,8 @@
 // is mixed from, and the hand itself.
 
 import { axes, clipped } from "./axes.js";
-import { contour } from "./contour.js";
 import { Figure } from "./figure.js";
-import { fieldPicture, colourBar } from "./field.js";
+import { colourBar, contour, fieldPicture } from "./field.js";
 import { FLOOR_HZ } from "./models.js";
 import { COLUMN, FLAG } from "./ring.js";
 import { PlanePointer } from "./plane-pointer.js";

@@ -1,10 +1,9 @@
 // How the texture feels, as sliders: heard while they move, one edit of the base once they are released.
 
-import { announce, element, find } from "../dom.js";
+import { announce, element, find, showRefusal } from "../dom.js";
 import { texts } from "../texts.js";
 import { Axis } from "./axis.js";
 import { Live } from "./live.js";
-import { showRefusal } from "./refused.js";
 
 /** Axes that are shown first; the others are finer ones. */
 const FIRST = ["rough", "slippery", "hard"];

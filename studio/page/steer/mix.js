@@ -1,11 +1,9 @@
 // Blend two textures, or compose one of the taps, the vibration and the friction of three.
 
-import { element, find } from "../dom.js";
+import { element, find, showRefusal } from "../dom.js";
 import { texts } from "../texts.js";
 import { Choice } from "./choice.js";
-import { Held } from "./held.js";
-import { Live } from "./live.js";
-import { showRefusal } from "./refused.js";
+import { Held, Live } from "./live.js";
 import { describe } from "./timeline.js";
 
 const PARTS = ["tap", "slide", "friction"];

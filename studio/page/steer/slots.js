@@ -3,8 +3,7 @@
 import { announce, element, find, recall, remember } from "../dom.js";
 import { texts } from "../texts.js";
 import { LETTERS } from "./compare.js";
-import { portrait } from "./portrait.js";
-import { changeOf, describe } from "./timeline.js";
+import { changeOf, describe, portrait } from "./timeline.js";
 
 const said = texts.steer.compare;
 

@@ -1,8 +1,7 @@
 // Changes in words, such as “less gritty, more waxy”, and what was understood of them.
 
-import { element, find } from "../dom.js";
+import { element, find, showRefusal } from "../dom.js";
 import { texts } from "../texts.js";
-import { showRefusal } from "./refused.js";
 
 /** Smallest move that is shown, steps. */
 const LEAST = 0.5;
