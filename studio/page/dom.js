@@ -47,6 +47,17 @@ export function remember(name, value) {
   }
 }
 
+/** Runs what a button does, which is busy meanwhile and does it once; it is not disabled, which would take the focus away. */
+export async function busily(button, run) {
+  if (button.getAttribute("aria-busy") === "true") return;
+  button.setAttribute("aria-busy", "true");
+  try {
+    await run();
+  } finally {
+    button.removeAttribute("aria-busy");
+  }
+}
+
 /** A file for the person: a Blob under a name, without leaving the page. */
 export function save(name, blob) {
   const link = document.createElement("a");

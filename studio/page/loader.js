@@ -75,7 +75,7 @@ export class Loader {
     const asset = await server.asset(texture, signal);
     sound.play(asset);
     state.set({ texture, asset });
-    Promise.all([server.picture(texture, signal), server.normals(texture, signal)])
+    Promise.all(["png", "normal.png"].map((ending) => server.download(texture, ending, signal)))
       .then(([picture, normals]) => !signal.aborted && surface.show(picture, normals, texture.preview.width_mm))
       .then(() => withdraw("picture"))
       .catch(({ name, help, message }) => {

@@ -85,18 +85,10 @@ state.on(["about"], ({ about }) => {
 });
 // The plots ask the module that also renders the sound.
 const runtime = server.file("asperity.wasm").then((bytes) => WebAssembly.instantiate(bytes)).then(({ instance }) => instance.exports);
-let plots = mountPlots(find("plots"), runtime, texts.plots);
-const hearTicks = (ticks) => plots.addTicks(ticks);
-sound.onticks.push(hearTicks);
+const plots = mountPlots(find("plots"), runtime, texts.plots);
+// Beside a device they show its ticks instead of the page's own.
+sound.onticks.push((ticks) => state.get("about")?.device || plots.addTicks(ticks));
 state.on(["texture"], ({ texture, asset }) => plots.setTexture(texture && texture.inspect, asset));
-/** The plots show the device instead of the page's own hand. */
-const plotsOfDevice = (tick_hz) => {
-  sound.onticks.splice(sound.onticks.indexOf(hearTicks), 1);
-  plots.destroy();
-  plots = mountPlots(find("plots"), runtime, texts.plots, { tick_hz });
-  plots.setTexture(state.get("texture")?.inspect ?? null, state.get("asset"));
-  return plots;
-};
-startDevicePanel({ server, state, surface, plots: plotsOfDevice });
+startDevicePanel({ server, state, surface, plots });
 find("prompt").focus({ preventScroll: true });
 loader.begin();

@@ -61,7 +61,7 @@ export function startTexturePanels({ state, loader }) {
     prompt.accept(how.prompt);
     announce(texts.prompt.compiled(texture.name, texture.compiled ? certaintyText(texture.compiled) : ""));
   });
-  loader.onrefused.push(({ message, help }, how) => how?.kind === "prompt" && prompt.refuse(message, help));
+  loader.onrefused.push((refusal, how) => how?.kind === "prompt" && prompt.refuse(refusal));
 
   state.on(["busy"], ({ busy }) => (prompt.busy = busy?.kind === "prompt"));
   state.on(["about"], ({ about }) => {

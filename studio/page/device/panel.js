@@ -16,13 +16,14 @@ const SHOW_MS = 200;
 
 const stateOf = (flags) => STATES.find(([bit]) => flags & bit)?.[1] ?? "free";
 
-/** Builds the panel where `about` names a device. `plots` gives those of a tick rate. */
+/** Builds the panel where `about` names a device, which the plots then show. */
 export function startDevicePanel({ server, state, surface, plots }) {
   state.on(["about"], ({ about }) => {
     const panel = find("servo-panel");
     if (!about?.device || !panel.hidden) return;
     panel.hidden = false;
-    new DevicePanel({ server, state, surface, plots: plots(about.device.rate_hz) }, about.device);
+    plots.begin(about.device.rate_hz);
+    new DevicePanel({ server, state, surface, plots }, about.device);
   });
 }
 

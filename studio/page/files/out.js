@@ -1,6 +1,6 @@
 // The panel “Take it with you”: every file of the texture, and a library of the session.
 
-import { announce, element, find, notify, save, withdraw } from "../dom.js";
+import { announce, busily, element, find, notify, save, withdraw } from "../dom.js";
 import { Refusal } from "../server.js";
 import { texts } from "../texts.js";
 import { Pack } from "./pack.js";
@@ -37,7 +37,6 @@ const fileName = ({ file }, suffix) => file.replace(/\.asp$/, "") + suffix;
 
 export class Out {
   #server;
-  #texture = null;
 
   constructor({ server, state, loader }) {
     this.#server = server;
@@ -52,14 +51,13 @@ export class Out {
   }
 
   #show(texture, about) {
-    this.#texture = texture;
     find("take-button").disabled = texture === null;
     if (!texture || !about) return;
     this.title.textContent = texture.name;
     const button = (kind) => {
       const name = fileName(texture, kind.suffix);
       return element("li", {}, element("button", { type: "button", class: "kind", title: name, "data-ending": kind.ending,
-        onclick: ({ currentTarget }) => this.#save(texture, kind, name, currentTarget) },
+        onclick: ({ currentTarget }) => busily(currentTarget, () => this.#save(texture, kind, name)) },
       element("span", { class: "label" }, kind.label), element("span", { class: "ending" }, kind.suffix.trim()),
       element("span", { class: "purpose" }, kind.purpose)));
     };
@@ -70,9 +68,7 @@ export class Out {
       ...column.filter((group) => groups[group].length > 0).map(section))));
   }
 
-  async #save(texture, { ending }, name, button) {
-    if (button.getAttribute("aria-busy") === "true") return;
-    button.setAttribute("aria-busy", "true");
+  async #save(texture, { ending }, name) {
     try {
       save(name, await this.#server.download(texture, ending));
       withdraw(`save ${ending}`);
@@ -80,8 +76,6 @@ export class Out {
     } catch (error) {
       if (!(error instanceof Refusal)) throw error;
       notify(`save ${ending}`, { text: texts.files.not_saved(name, error.message), help: error.help });
-    } finally {
-      button.removeAttribute("aria-busy");
     }
   }
 }

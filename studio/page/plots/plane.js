@@ -5,7 +5,7 @@ import { axes, clipped } from "./axes.js";
 import { Figure } from "./figure.js";
 import { colourBar, contour, fieldPicture } from "./field.js";
 import { FLOOR_HZ } from "./models.js";
-import { COLUMN, FLAG } from "./ring.js";
+import { FLAG } from "./ring.js";
 import { PlanePointer } from "./plane-pointer.js";
 
 const TRAIL_S = 1.5;

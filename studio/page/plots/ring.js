@@ -28,11 +28,6 @@ export class Ring {
     this.end = 0;
   }
 
-  get bytes() {
-    const arrays = [this.columns, this.positions_mm, this.flags, this.least, this.greatest];
-    return arrays.reduce((sum, array) => sum + array.byteLength, 0);
-  }
-
   /** Copies ticks from a kept one on, `most` of them or up to where the arrays begin again, as a message for `add`. */
   part(from, most) {
     const slot = from % this.capacity;
@@ -45,10 +40,6 @@ export class Ring {
       columns: cut(this.columns, WIDTH),
       flags: cut(this.flags, 1),
     };
-  }
-
-  clear() {
-    this.first = this.end;
   }
 
   /** Takes a `ticks` message of the worklet. Returns whether a new run begins. */

@@ -38,23 +38,30 @@ export class Playhead {
   }
 }
 
+/** What can be scrolled back to and saved, s. */
+const HISTORY_S = 30;
+
 export class Scope {
-  constructor(tick_hz, history_s) {
+  inspect = null;
+  /** The `Models` of the texture. */
+  models = null;
+  /** { speed_mm_s, force_n, vertex } that pointer or keys chose in the plane. */
+  chosen = null;
+
+  constructor(tick_hz) {
+    this.begin(tick_hz);
+  }
+
+  /** Forgets all ticks; those of another rate follow. */
+  begin(tick_hz) {
     this.tick_hz = tick_hz;
-    this.ring = new Ring(history_s * tick_hz);
+    this.ring = new Ring(HISTORY_S * tick_hz);
     this.playhead = new Playhead(tick_hz);
     this.frozen = false;
-    this.inspect = null;
-    /** The `Models` of the texture. */
-    this.models = null;
-    /** { speed_mm_s, force_n, vertex } that pointer or keys chose in the plane. */
-    this.chosen = null;
   }
 
   setTexture(inspect, models) {
-    this.inspect = inspect;
-    this.models = models;
-    this.chosen = null;
+    Object.assign(this, { inspect, models, chosen: null });
   }
 
   /** The tick after the last one shown. */

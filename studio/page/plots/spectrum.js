@@ -29,17 +29,19 @@ export class Spectrum extends Figure {
     this.scope = scope;
     this.texts = texts;
     this.least_s = LEAST_S;
-    this.fft = new Fft(2 ** Math.round(Math.log2(WINDOW_S * scope.tick_hz)));
-    this.signal = new Float64Array(this.fft.size);
-    this.powers = new Float64Array(this.fft.size / 2 + 1);
-    this.smooth = new Float64Array(this.fft.size / 2 + 1);
     this.last_s = -Infinity;
   }
 
-  /** A new texture: its loudest model, and how far the frequencies go. */
+  /** A new texture or another rate: the transform, the loudest model, and how far the frequencies go. */
   renew() {
-    const { models } = this.scope;
+    const { models, tick_hz } = this.scope;
     if (!models) return;
+    const size = 2 ** Math.round(Math.log2(WINDOW_S * tick_hz));
+    if (this.fft?.size !== size) {
+      this.fft = new Fft(size);
+      this.signal = new Float64Array(size);
+      [this.powers, this.smooth] = [0, 1].map(() => new Float64Array(size / 2 + 1));
+    }
     const nyquist_hz = 0.5 * models.rate_hz;
     this.high_hz = Math.max(HIGH_HZ, nyquist_hz);
     const some_hz = Array.from({ length: 64 }, (_, n) => LOW_HZ * (nyquist_hz / LOW_HZ) ** (n / 63));
@@ -119,7 +121,7 @@ export class Spectrum extends Figure {
   /** The points of a curve, with the bins that each is a mean of. */
   #points({ box }) {
     const count = Math.max(2, Math.round((box.right - box.left) / POINT_PX));
-    const key = `${count}|${this.high_hz}`;
+    const key = `${count}|${this.high_hz}|${this.#bin_hz}`;
     if (this.points_key === key) return this.points;
     this.points_key = key;
     const ratio = this.high_hz / LOW_HZ;

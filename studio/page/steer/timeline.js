@@ -29,7 +29,7 @@ const MAKERS = {
     (Object.keys(steps).length ? server.edit(from, { steps }, signal) : Promise.resolve(from))],
   words: ({ of, words }) => [[of], (server, [from], signal) => server.edit(from, { words }, signal)],
   encode: ({ from }) => [[from], (server, [of], signal) => server.encode(of, signal)],
-  blend: ({ a, b, t }) => [[a, b], (server, [from, to], signal) => server.blend(from, to, t, signal)],
+  blend: ({ a, b, t }) => [[a, b], (server, [from, to], signal) => server.blend(from, to, t, false, signal)],
   compose: ({ tap, slide, friction }) => [[tap, slide, friction], (server, [taps, slides, rubs], signal) =>
     server.compose({ tap: taps, slide: slides, friction: rubs }, signal)],
 };
