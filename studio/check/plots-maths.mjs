@@ -5,7 +5,6 @@ import { coefficients } from "../page/plots/friction.js";
 import { BLOCK, COLUMN, Ring, WIDTH } from "../page/plots/ring.js";
 import { roundSteps, roundUp, Span } from "../page/plots/scale.js";
 import { Playhead } from "../page/plots/scope.js";
-import { shortest } from "../page/plots/shortest.js";
 import { fail, near, numbers, same } from "./expect.mjs";
 
 const TICK_HZ = 16000;
@@ -100,43 +99,6 @@ export function checkScales() {
   }
   same("μ of a law", coefficients({ mu: 2, law: { points: [{ factor: 0.5 }, { factor: 1.5 }] } }).join(), "1,3");
   return "scales and contours";
-}
-
-export function checkShortest() {
-  const random = numbers(3);
-  const float = new Float32Array(1);
-  const whole = new Uint32Array(float.buffer);
-  const expect = (x) => {
-    const text = shortest(x);
-    same(`bits of ${x} as ${text}`, Math.fround(Number(text)), x);
-    if (!/^-?\d+(\.\d*[1-9])?$/.test(text)) fail(`${x} is printed as ${text}`);
-    const digits = text.replace(/^-|\./g, "").replace(/^0+|0+$/g, "").length;
-    for (let fewer = digits - 1; fewer > 0; fewer--) {
-      if (Math.fround(Number(x.toPrecision(fewer))) === x) fail(`${x} has ${fewer} digits, not ${digits}`);
-    }
-  };
-  for (const x of [
-    0,
-    -0,
-    1,
-    -1,
-    0.1,
-    1.5,
-    16777216,
-    152064336,
-    1e-7,
-    3.4028234663852886e38,
-    1.401298464324817e-45,
-    0.25,
-    2 ** -10,
-  ])
-    expect(Math.fround(x));
-  for (let n = 0; n < 200000; n++) {
-    if (n % 2) float[0] = (random() - 0.5) * 10 ** (8 * random() - 4);
-    else whole[0] = random() * 2 ** 32;
-    if (Number.isFinite(float[0])) expect(float[0]);
-  }
-  return "floats as the shortest text of their bits";
 }
 
 /** A ring that wraps, messages of odd lengths, gaps and sessions, against plain arrays. */

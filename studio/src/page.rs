@@ -36,9 +36,9 @@ pub(crate) const FILES: &[File] = files! {
         "offline/module.js" "offline/offline.js" "offline/worker.js"
         "output/chain.js" "output/equaliser-panel.js" "output/equaliser.js" "output/modes.js" "output/motors.js"
         "output/panel.js" "output/response.js" "output/shift.js" "output/tones.js"
-        "plots/axes.js" "plots/controls.js" "plots/csv-worker.js" "plots/csv.js" "plots/fft.js" "plots/field.js"
+        "plots/axes.js" "plots/controls.js" "plots/csv.js" "plots/fft.js" "plots/field.js"
         "plots/figure.js" "plots/force.js" "plots/friction.js" "plots/models.js" "plots/plane-pointer.js"
-        "plots/plane.js" "plots/plots.js" "plots/ring.js" "plots/scale.js" "plots/scope.js" "plots/shortest.js"
+        "plots/plane.js" "plots/plots.js" "plots/ring.js" "plots/scale.js" "plots/scope.js"
         "plots/spectrum.js" "plots/stage.js" "plots/strip.js" "plots/texts.js" "plots/waveform.js"
         "steer/axis.js" "steer/choice.js" "steer/compare.js" "steer/feel.js" "steer/live.js" "steer/mix.js"
         "steer/session.js" "steer/slots.js" "steer/steer.js" "steer/timeline.js" "steer/words.js";

@@ -11,6 +11,7 @@
 use crate::{
     engine::{Block, Engine, MAX_FRAMES},
     hand::{Pointer, RATE_HZ, ROOM},
+    row::Row,
     session::{SPARE, Session},
     spectrum::Spectrum,
     status::Status,
@@ -65,6 +66,7 @@ static WAITING: Single<[MaybeUninit<HostTexture>; SPARE]> =
 /// Where an asset is loaded before the session ends.
 static NEXT: Single<HostTexture> = Single::new(HostTexture::EMPTY);
 static REFUSED_RATE_HZ: Single<f32> = Single::new(0.0);
+static ROW: Single<Row> = Single::new(Row::EMPTY);
 static SPECTRUM: Single<Spectrum> = Single::new(Spectrum::SILENT);
 
 /// The bytes of an asset, `asset_capacity` of them.
@@ -109,10 +111,10 @@ extern "C" fn buffer_positions() -> *const f32 {
     BLOCK.get().positions_mm.as_ptr().cast()
 }
 
-/// Columns 3 to 11 of `asperity render` for each tick of `process`, nine `f32` each.
+/// Columns 3 to 11 of `asperity render` for each tick of `process`, nine `f32` each; `print_row` takes those of the first.
 #[unsafe(no_mangle)]
-extern "C" fn buffer_columns() -> *const f32 {
-    BLOCK.get().columns.as_ptr().cast()
+extern "C" fn buffer_columns() -> *mut f32 {
+    BLOCK.get().columns.as_mut_ptr().cast()
 }
 
 /// The last column of `asperity render` for each tick of `process`, `u32`.
@@ -239,6 +241,19 @@ extern "C" fn process(frames: usize, now_s: f64) -> usize {
     let block = BLOCK.get();
     ENGINE.get().process(frames, now_s, block);
     block.ticks
+}
+
+/// The text of `print_row`, ASCII.
+#[unsafe(no_mangle)]
+extern "C" fn buffer_row() -> *const u8 {
+    ROW.get().text.as_ptr()
+}
+
+/// Prints the first nine numbers of `buffer_columns` as `asperity render` does, with commas between them; the bytes of
+/// the text.
+#[unsafe(no_mangle)]
+extern "C" fn print_row() -> usize {
+    ROW.get().print(&BLOCK.get().columns[0])
 }
 
 /// Mixes the model that the texture that plays has at a speed and a force, for `density` and `power`; silence without
