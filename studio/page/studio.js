@@ -2,6 +2,7 @@
 
 import { startDevicePanel } from "./device/panel.js";
 import { fillTexts, find, notify, recall, remember } from "./dom.js";
+import { Events } from "./events.js";
 import { In } from "./files/in.js";
 import { Out } from "./files/out.js";
 import { startGallery } from "./gallery/gallery.js";
@@ -17,13 +18,8 @@ import { texts } from "./texts.js";
 import { startTexturePanels } from "./texture-panels.js";
 
 /** What the parts share. A part sets values; others hear of those that changed. */
-class State {
-  #values;
-  #listeners = new Map();
-
-  constructor(values) {
-    this.#values = { ...values };
-  }
+class State extends Events {
+  #values = { about: null, texture: null, busy: false, draft: false };
 
   get(name) {
     return this.#values[name];
@@ -32,14 +28,13 @@ class State {
   set(values) {
     const changed = Object.keys(values).filter((name) => this.#values[name] !== values[name]);
     Object.assign(this.#values, values);
-    const listeners = new Set(changed.flatMap((name) => this.#listeners.get(name) ?? []));
-    for (const listener of listeners) listener(this.#values);
+    for (const name of changed) this.emit(name, this.#values);
   }
 
-  /** Calls `listener` with all values now, and when one of the named ones changed. */
-  on(names, listener) {
-    for (const name of names) this.#listeners.set(name, [...(this.#listeners.get(name) ?? []), listener]);
-    listener(this.#values);
+  /** Calls `hear` with all values now, and when one of the named ones changed. */
+  on(names, hear) {
+    for (const name of names) super.on(name, hear);
+    hear(this.#values);
   }
 }
 
@@ -62,7 +57,7 @@ function startTheme() {
 
 find("unstarted").remove();
 const server = new Server();
-const state = new State({ about: null, texture: null, busy: false, draft: false });
+const state = new State();
 const broken = () => notify("broken", { text: texts.broken, help: texts.broken_help });
 addEventListener("error", broken);
 addEventListener("unhandledrejection", broken);
@@ -87,7 +82,7 @@ state.on(["about"], ({ about }) => {
 const runtime = server.file("asperity.wasm").then((bytes) => WebAssembly.instantiate(bytes)).then(({ instance }) => instance.exports);
 const plots = mountPlots(find("plots"), runtime, texts.plots);
 // Beside a device they show its ticks instead of the page's own.
-sound.onticks.push((ticks) => state.get("about")?.device || plots.addTicks(ticks));
+sound.on("ticks", (ticks) => state.get("about")?.device || plots.addTicks(ticks));
 state.on(["texture"], ({ texture, asset }) => plots.setTexture(texture && texture.inspect, asset));
 startDevicePanel({ server, state, surface, plots });
 find("prompt").focus({ preventScroll: true });

@@ -50,7 +50,7 @@ export function startTexturePanels({ state, loader }) {
 
   // Sliders and words keep to the prompt that they began with, by the names of textures.
   const prompted = new Map();
-  loader.onshown.push((texture, how) => {
+  loader.on("shown", ({ texture, how }) => {
     if (texture.compiled) prompted.set(texture.id, texture);
     else if (!prompted.has(texture.id)) prompted.set(texture.id, prompted.get((how.base ?? how.of)?.id));
     const from = prompted.get(texture.id) ?? texture;
@@ -61,7 +61,7 @@ export function startTexturePanels({ state, loader }) {
     prompt.accept(how.prompt);
     announce(texts.prompt.compiled(texture.name, texture.compiled ? certaintyText(texture.compiled) : ""));
   });
-  loader.onrefused.push((refusal, how) => how?.kind === "prompt" && prompt.refuse(refusal));
+  loader.on("refused", ({ refusal, how }) => how?.kind === "prompt" && prompt.refuse(refusal));
 
   state.on(["busy"], ({ busy }) => (prompt.busy = busy?.kind === "prompt"));
   state.on(["about"], ({ about }) => {

@@ -51,10 +51,10 @@ class DevicePanel {
       ...(swaps ? this.#swap() : [element("p", { class: "small" }, texts.device.scene)]),
       this.#said);
     this.#feed = new Feed(parts.server);
-    this.#feed.onnews = (news) => this.#news(news);
-    this.#feed.onticks = (ticks) => this.#ticks(ticks);
-    this.#feed.onsilence = (error) => error
-      ? notify("servo", { text: texts.device.silent, help: error.help ?? texts.device.silent_help }) : withdraw("servo");
+    this.#feed.on("news", (news) => this.#news(news));
+    this.#feed.on("ticks", (ticks) => this.#ticks(ticks));
+    this.#feed.on("silence", (error) => error
+      ? notify("servo", { text: texts.device.silent, help: error.help ?? texts.device.silent_help }) : withdraw("servo"));
     this.#feed.run();
   }
 

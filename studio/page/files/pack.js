@@ -35,7 +35,7 @@ export class Pack {
     this.element = element("section", { class: "session-library", "data-needs": "server" }, element("h3", {}, texts.files.session),
       element("p", { class: "small" }, texts.files.session_hint), this.list, this.error, this.button);
     this.#count();
-    loader.onshown.push((texture, { kind }) => this.#add(texture, !HAS_FILE.includes(kind)));
+    loader.on("shown", ({ texture, how: { kind } }) => this.#add(texture, !HAS_FILE.includes(kind)));
   }
 
   #add(texture, chosen) {

@@ -199,9 +199,9 @@ class Gallery {
 export function startGallery(parts) {
   const { loader } = parts;
   const gallery = new Gallery(parts);
-  loader.onrefused.push(({ message, help }, how) => {
+  loader.on("refused", ({ refusal: { message, help }, how }) => {
     if (how?.kind === "pick") notify("pick", { text: texts.gallery.not_picked(how.name, message), help });
   });
-  loader.onshown.push((_texture, { kind }) => kind === "pick" && withdraw("pick"));
+  loader.on("shown", ({ how: { kind } }) => kind === "pick" && withdraw("pick"));
   return gallery;
 }

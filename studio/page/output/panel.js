@@ -59,7 +59,7 @@ export function startOutput({ sound, setLevel }) {
     setLevel(sound.level_db);
     show();
   });
-  sound.onstate.push(show);
+  sound.on("state", show);
   find("output").replaceChildren(
     element("div", { class: "choice" }, element("label", { for: "mode" }, own.mode), select), text, test.group,
     startEqualiser(sound), startMotors(sound));

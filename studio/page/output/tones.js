@@ -128,6 +128,6 @@ export function tonesButton(sound, { bands, mark }) {
     event.stopPropagation();
     addEventListener("keyup", swallow, { capture: true, once: true });
   }, true);
-  sound.onstate.push((state) => state !== "on" && stop());
+  sound.on("state", (state) => state !== "on" && stop());
   return { elements: [element("div", { class: "row" }, button, shown), element("p", { class: "small" }, own.tones_about)], stop };
 }

@@ -36,12 +36,12 @@ export class Mix {
       group(texts.steer.mix.compose, ...PARTS.map((name) => this.#composed[name].element), this.#compose), this.#error, words);
     new Held(this.#t, { moved: () => this.#moves(), released: () => this.#settles() });
     state.on(["about"], ({ about }) => words.replaceChildren(...(about?.words ?? []).map((word) => element("option", { value: word }))));
-    session.onchange.push(() => {
+    session.on("change", () => {
       showRefusal(this.#error, null);
       this.#offer();
     });
-    compare.onchange.push(() => this.#offer());
-    loader.onrefused.push((refusal, how) => {
+    compare.on("change", () => this.#offer());
+    loader.on("refused", ({ refusal, how }) => {
       if (!["blend", "compose"].includes(how?.kind)) return;
       showRefusal(this.#error, refusal);
       session.sound();

@@ -64,7 +64,7 @@ export function startSlots({ server, session }, compare) {
     const level = !matched ? "" : order || compare.heard < 0 ? said.matched : said.matched_by(LETTERS[compare.heard], compare.gain_db(compare.heard));
     told.textContent = [order ? "" : revealed, level].filter(Boolean).join(" · ");
   };
-  compare.onchange.push(show);
+  compare.on("change", show);
   show();
   return () => keys.input.checked;
 }

@@ -32,7 +32,7 @@ function startPiece({ server, session, loader }) {
       return stepped(server, how.base, steps, signal);
     }, how);
   });
-  session.onchange.push(show);
+  session.on("change", show);
   show();
 }
 
@@ -56,7 +56,7 @@ function startBlind({ state }, compare) {
     // In place of what was said last, which may be a name.
     if (blind) announce(texts.steer.compare.title_blind);
   });
-  compare.onchange.push(() => {
+  compare.on("change", () => {
     const { order, heard } = compare;
     veil.textContent = order ? `? ${order.indexOf(heard) + 1}` : "";
   });
@@ -97,8 +97,8 @@ export function startSteering({ server, state, loader, sound }) {
   startBlind(parts, compare);
 
   // A draft ends with whatever is shown or refused.
-  session.onchange.push(() => state.set({ draft: false }));
-  loader.onrefused.push(() => state.set({ draft: false }));
+  session.on("change", () => state.set({ draft: false }));
+  loader.on("refused", () => state.set({ draft: false }));
   state.on(["draft"], ({ draft }) => {
     find("draft").textContent = draft ? texts.steer.draft : "";
   });

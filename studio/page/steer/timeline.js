@@ -91,13 +91,13 @@ export function startTimeline({ server, state, session, loader }) {
     const current = list.children[at];
     if (current) list.scrollLeft = current.offsetLeft - (list.clientWidth - current.offsetWidth) / 2;
   };
-  session.onchange.push(() => {
+  session.on("change", () => {
     withdraw("gone");
     show();
   });
   state.on(["blind"], show);
 
-  loader.onrefused.push(({ message }, how) => {
+  loader.on("refused", ({ refusal: { message }, how }) => {
     if (how?.kind !== "undo") return;
     const { entry } = how;
     const make = madeAgain(server, session, entry.texture);

@@ -27,8 +27,8 @@ export class Words {
     });
     find("words-panel").append(form,
       element("div", { class: "examples", role: "group", "aria-label": texts.steer.words.try }, ...this.#examples), this.#understood, this.#error);
-    parts.session.onchange.push(() => this.#show());
-    parts.loader.onrefused.push((refusal, how) => how?.kind === "words" && showRefusal(this.#error, refusal));
+    parts.session.on("change", () => this.#show());
+    parts.loader.on("refused", ({ refusal, how }) => how?.kind === "words" && showRefusal(this.#error, refusal));
     parts.state.on(["about"], () => this.#show());
   }
 
