@@ -58,14 +58,7 @@ export function contour(values, columns, level) {
         const [a, b] = [corners[side], corners[(side + 1) % 4]];
         if (a < level === b < level) continue;
         const t = (level - a) / (b - a);
-        crossings.push(
-          [
-            [x + t, y],
-            [x + 1, y + t],
-            [x + 1 - t, y + 1],
-            [x, y + 1 - t],
-          ][side],
-        );
+        crossings.push([[x + t, y], [x + 1, y + t], [x + 1 - t, y + 1], [x, y + 1 - t]][side]);
       }
       if (crossings.length === 4) {
         // A saddle: the middle says which corners belong together.

@@ -34,7 +34,7 @@ export class Figure {
     this.element = element("figure", { class: `plot plot-${name}` },
       element("figcaption", { class: "plot-caption" }, element("span", { class: "plot-title" }, texts.title), this.readout), this.canvas,
       ...(items.length > 0 ? [element("ul", { class: "plot-legend" }, ...items)] : []),
-      ...(hint ? [element("p", { class: "plot-unseen", id: hint }, texts.hint)] : []));
+      ...(hint ? [element("p", { class: "unseen", id: hint }, texts.hint)] : []));
     this.ctx = this.canvas.getContext("2d");
     stage.add(this);
   }

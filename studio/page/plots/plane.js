@@ -19,6 +19,16 @@ const CONTOUR_DB = 5;
 /** What is drawn on the field shows on every colour of it in this pair. */
 const [LIGHT, DARK] = ["#fff", "rgb(0 0 0 / 75%)"];
 
+/** Strokes the path in a dark colour and, narrower, in a light one: [colour, width] each. */
+function strokeTwice(ctx, ...strokes) {
+  for (const [colour, width] of strokes) {
+    ctx.strokeStyle = colour;
+    ctx.lineWidth = width;
+    ctx.stroke();
+  }
+  ctx.lineWidth = 1;
+}
+
 export class Plane extends Figure {
   constructor(stage, scope, texts, chosen) {
     const contour = texts.legend.contour({ every_db: CONTOUR_DB, floor_hz: FLOOR_HZ });
@@ -49,13 +59,8 @@ export class Plane extends Figure {
 
   #field(ctx, models) {
     const { palette } = this.stage;
-    const placed = axes(
-      ctx,
-      this,
-      { low: 0, high: models.max_speed_mm_s, title: this.texts.speed_axis },
-      { low: 0, high: models.max_force_n, title: this.texts.force_axis },
-      { right: RIGHT_PX, grid: false, frame: false },
-    );
+    const placed = axes(ctx, this, { low: 0, high: models.max_speed_mm_s, title: this.texts.speed_axis },
+      { low: 0, high: models.max_force_n, title: this.texts.force_axis }, { right: RIGHT_PX, grid: false, frame: false });
     const { box } = placed;
     const [width, height] = [box.right - box.left, box.bottom - box.top];
     const picture = fieldPicture(models, Math.ceil(width / 2), Math.ceil(height / 2));
@@ -101,12 +106,7 @@ export class Plane extends Figure {
         ctx.lineTo(...at(to));
       });
     }
-    ctx.strokeStyle = "rgb(0 0 0 / 30%)";
-    ctx.lineWidth = 2.5;
-    ctx.stroke();
-    ctx.strokeStyle = "rgb(255 255 255 / 80%)";
-    ctx.lineWidth = 1;
-    ctx.stroke();
+    strokeTwice(ctx, ["rgb(0 0 0 / 30%)", 2.5], ["rgb(255 255 255 / 80%)", 1]);
     for (const [vertex, { kind }] of vertices.entries()) {
       const [px, py] = at(vertex);
       const inner = kind === "interior";
@@ -139,14 +139,8 @@ export class Plane extends Figure {
         ctx.lineTo(...points[n + 1]);
       }
       const strength = (fade + 1) / FADES;
-      ctx.strokeStyle = `rgb(0 0 0 / ${70 * strength}%)`;
-      ctx.lineWidth = 4;
-      ctx.stroke();
-      ctx.strokeStyle = `rgb(255 255 255 / ${100 * strength}%)`;
-      ctx.lineWidth = 2;
-      ctx.stroke();
+      strokeTwice(ctx, [`rgb(0 0 0 / ${70 * strength}%)`, 4], [`rgb(255 255 255 / ${100 * strength}%)`, 2]);
     }
-    ctx.lineWidth = 1;
   }
 
   #at(query) {
@@ -164,13 +158,7 @@ export class Plane extends Figure {
     ctx.arc(px, py, 7, 0, 2 * Math.PI);
     ctx.fillStyle = touches ? palette.accent : palette.paper;
     ctx.fill();
-    ctx.strokeStyle = "#000";
-    ctx.lineWidth = 4;
-    ctx.stroke();
-    ctx.strokeStyle = "#fff";
-    ctx.lineWidth = 2;
-    ctx.stroke();
-    ctx.lineWidth = 1;
+    strokeTwice(ctx, ["#000", 4], ["#fff", 2]);
   }
 
   /** An arrow out of the plane: the hand is beyond, and the edge model at its foot answers. */
@@ -186,23 +174,14 @@ export class Plane extends Figure {
   }
 
   #cross(ctx, box, px, py) {
-    const lines = () => {
-      ctx.beginPath();
-      ctx.moveTo(px, box.top);
-      ctx.lineTo(px, box.bottom);
-      ctx.moveTo(box.left, py);
-      ctx.lineTo(box.right, py);
-      ctx.stroke();
-      ctx.beginPath();
-      ctx.arc(px, py, 6, 0, 2 * Math.PI);
-      ctx.stroke();
-    };
-    ctx.strokeStyle = "#000";
-    ctx.lineWidth = 3;
-    lines();
-    ctx.strokeStyle = "#fff";
-    ctx.lineWidth = 1;
-    lines();
+    ctx.beginPath();
+    ctx.moveTo(px, box.top);
+    ctx.lineTo(px, box.bottom);
+    ctx.moveTo(box.left, py);
+    ctx.lineTo(box.right, py);
+    ctx.moveTo(px + 6, py);
+    ctx.arc(px, py, 6, 0, 2 * Math.PI);
+    strokeTwice(ctx, ["#000", 3], ["#fff", 1]);
   }
 
   #text() {

@@ -98,12 +98,8 @@ export class Spectrum extends Figure {
 
   #axes(ctx, top_db) {
     const low_db = top_db - DEPTH_DB;
-    const placed = axes(
-      ctx,
-      this,
-      { low: LOW_HZ, high: this.high_hz, log: true, title: this.texts.frequency_axis },
-      { low: low_db, high: top_db, title: this.texts.density_axis, every: ROUND_DB },
-    );
+    const placed = axes(ctx, this, { low: LOW_HZ, high: this.high_hz, log: true, title: this.texts.frequency_axis },
+      { low: low_db, high: top_db, title: this.texts.density_axis, every: ROUND_DB });
     const nyquist_hz = 0.5 * this.scope.models.rate_hz;
     const { box, x } = placed;
     ctx.strokeStyle = ctx.fillStyle = this.stage.palette.muted;

@@ -15,7 +15,7 @@ const HOLDERS = {
 /** The page's colours and font as canvases need them: resolved, whatever notation the page uses. */
 class Palette {
   constructor(container, changed) {
-    this.probe = element("span", { class: "plot-probe" });
+    this.probe = element("span", { class: "unseen plot-probe" });
     container.append(this.probe);
     this.read();
     const again = () => this.read() && changed();
@@ -56,7 +56,7 @@ export class Stage {
     this.sizes = new ResizeObserver((entries) => {
       for (const entry of entries) this.#of(entry.target)?.resize(entry.contentRect);
     });
-    this.announcer = element("p", { class: "plot-unseen", "aria-live": "polite" });
+    this.announcer = element("p", { class: "unseen", "aria-live": "polite" });
     container.append(this.announcer);
   }
 
