@@ -1,4 +1,4 @@
-// What happened, for whoever listens: how the parts of the page hear of each other.
+// Events, by which the parts of the page hear of each other.
 
 export class Events extends EventTarget {
   /** Calls `hear` with what `emit` gives it. */

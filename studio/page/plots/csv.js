@@ -19,8 +19,8 @@ function table(header, ring, row) {
 }
 
 /**
- * What was rendered: the table of `asperity render`, to the byte where the run began at tick 0. `runtime` has the exports of
- * `asperity.wasm`, which prints floats as the command does.
+ * The table of `asperity render`, to the byte where the run began at tick 0. `runtime` has the exports of `asperity.wasm`, which
+ * prints floats as the command does.
  */
 export function renderedCsv(ring, tick_hz, runtime) {
   const { buffer } = runtime.memory;

@@ -141,7 +141,7 @@ impl<'q, 'a> Session<'q, 'a> {
         RATE_HZ / f32::from(self.player.texture().ticks_per_sample())
     }
 
-    /// What the texture that plays promises at a speed and a force, once both rest.
+    /// Spectrum of the texture that plays at a speed and a force, once both rest.
     #[must_use]
     pub fn spectrum(&self, speed_mm_s: f32, force_n: f32) -> Spectrum {
         let filter = self.player.texture().filter_at(speed_mm_s, force_n);
