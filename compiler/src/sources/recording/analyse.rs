@@ -1,15 +1,13 @@
 //! From a folder to what its sensors say of a surface.
 
-use super::{
-    error::RecordingFailure,
-    grid::{self, GridFit},
-};
+use super::error::RecordingFailure;
 use crate::pipeline::Clock;
 use asperity_recording::{
     RecordingError,
     check::{self, Checked},
     description::Quantity,
     friction::{self, Friction},
+    grid::{self, GridFit},
     impact::{self, Impact, SpeedSource, Transient},
     reader::{self, Recording},
     resonance::{self, FreeAir},
