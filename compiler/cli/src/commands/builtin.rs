@@ -17,6 +17,5 @@ pub(crate) fn run(args: &Arguments, console: Console) -> Result<(), Failures> {
         ..Wanted::of(&args.output)
     };
     let job = Job::open(wanted, &[], console)?;
-    job.run(&Builtin, &Request::default(), &Tools::default())?;
-    Ok(())
+    job.run(&Builtin, &Request::default(), &Tools::default())
 }

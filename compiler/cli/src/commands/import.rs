@@ -12,7 +12,7 @@ use asperity::{
         Source, Tools,
         effects::{Effects, Kind, Options},
         model_file::ModelFile,
-        recording::{Recorded, RecordingFolder},
+        recording::RecordingFolder,
     },
     views::preview,
 };
@@ -35,8 +35,7 @@ pub(crate) fn model(args: &ImportModel, console: Console) -> Result<(), Failures
         ..Request::default()
     };
     let job = Job::open(wanted, &source.inputs(), console)?;
-    job.run(&source, &request, &Tools::default())?;
-    Ok(())
+    job.run(&source, &request, &Tools::default())
 }
 
 pub(crate) fn effects(args: &ImportEffects, kind: Kind, console: Console) -> Result<(), Failures> {
@@ -65,8 +64,7 @@ pub(crate) fn effects(args: &ImportEffects, kind: Kind, console: Console) -> Res
         ..Request::default()
     };
     let job = Job::open(wanted, &source.inputs(), console)?;
-    job.run(&source, &request, &Tools::default())?;
-    Ok(())
+    job.run(&source, &request, &Tools::default())
 }
 
 pub(crate) fn recording(args: &ImportRecording, console: Console) -> Result<(), Failures> {
@@ -96,12 +94,5 @@ pub(crate) fn recording(args: &ImportRecording, console: Console) -> Result<(), 
         model: Some(&model),
         ..Tools::default()
     };
-    let compiled = job.run(&source, &request, &tools)?;
-    if let (true, Some(found)) = (args.reporting.timings, compiled.found::<Recorded>()) {
-        for step in &found.analysis.steps {
-            let ms = 1e3 * step.took.as_secs_f64();
-            console.aside(&format!("  {:<16} {ms:>10.3} ms", step.name));
-        }
-    }
-    Ok(())
+    job.run(&source, &request, &tools)
 }

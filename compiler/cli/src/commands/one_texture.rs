@@ -94,11 +94,10 @@ impl<'a> Job<'a> {
         source: &dyn Source,
         request: &Request,
         tools: &Tools<'_>,
-    ) -> Result<Compiled, Failures> {
+    ) -> Result<(), Failures> {
         let compiled = self.compile(source, request, tools)?;
         let text = format!("{}\n", compiled.text());
-        self.finish(&compiled, compiled.json(), &text, "")?;
-        Ok(compiled)
+        self.finish(&compiled, compiled.json(), &text, "")
     }
 
     /// Compiles. On a terminal it is shown that the command works.

@@ -1,6 +1,6 @@
 //! A learning curve: how well textures come back after so many seconds, and what the check of a recording finds.
 
-use asperity::{model::TextureModel, pipeline::Clock, sources::recording};
+use asperity::{model::TextureModel, pipeline::Pipeline, sources::recording};
 use asperity_recording::check::Severity;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -53,7 +53,7 @@ pub fn learn(
             let mut sensors = Sensors::seeded(seed);
             alter(&mut sensors);
             record(&performance, texture, &sensors, seed, &folder.0)?;
-            let analysis = recording::analyse(&folder.0, false, Clock::default());
+            let analysis = recording::analyse(&folder.0, false, &mut Pipeline::default());
             done();
             Ok(match analysis {
                 Ok(analysis) => Row {
