@@ -34,9 +34,7 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
     let wanted = Wanted {
         emit_model: args.emit_model.as_deref(),
         plot: args.plot.as_deref(),
-        json: args.reporting.json,
-        timings: args.reporting.timings,
-        ..Wanted::of(&args.output)
+        ..Wanted::of(&args.output, args.reporting)
     };
     let job = Job::open(wanted, &inputs, console)?;
     let prompt_compiler = args.inference.setup().prompt_compiler()?;

@@ -23,11 +23,7 @@ pub(crate) fn model(args: &ImportModel, console: Console) -> Result<(), Failures
     let source = ModelFile {
         file: args.input.clone(),
     };
-    let wanted = Wanted {
-        json: args.reporting.json,
-        timings: args.reporting.timings,
-        ..Wanted::of(&args.output)
-    };
+    let wanted = Wanted::of(&args.output, args.reporting);
     let request = Request {
         fidelity: args.fidelity,
         rate_hz: args.rate,
@@ -51,11 +47,7 @@ pub(crate) fn effects(args: &ImportEffects, kind: Kind, console: Console) -> Res
             mu: args.mu.into(),
         },
     };
-    let wanted = Wanted {
-        json: args.reporting.json,
-        timings: args.reporting.timings,
-        ..Wanted::of(&args.output)
-    };
+    let wanted = Wanted::of(&args.output, args.reporting);
     let request = Request {
         name: args.name.clone(),
         fidelity: args.fidelity,
@@ -78,9 +70,7 @@ pub(crate) fn recording(args: &ImportRecording, console: Console) -> Result<(), 
         emit_model: args.emit_model.as_deref(),
         plot: args.plot.as_deref(),
         report: args.report.as_deref(),
-        json: args.reporting.json,
-        timings: args.reporting.timings,
-        ..Wanted::of(&args.output)
+        ..Wanted::of(&args.output, args.reporting)
     };
     let request = Request {
         fidelity: args.fidelity,

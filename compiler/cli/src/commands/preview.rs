@@ -1,16 +1,15 @@
 //! `asperity preview`.
 
-use super::diffusion;
+use super::{diffusion, input::Chosen};
 use crate::cli::Preview;
 use asperity::{
-    emit::{raise::raise, textures::Textures},
+    emit::raise::raise,
     views::{
         diffusion::{Request, files, prompt_of},
         preview::{self, PreviewError, SIZE},
     },
 };
 use asperity_console::Console;
-use asperity_formats::Asset;
 use asperity_io::{
     diagnostic::{Failures, one},
     output::{Outputs, display},
@@ -26,10 +25,8 @@ pub(crate) fn run(args: &Preview, console: Console) -> Result<(), Failures> {
     let height = outputs.open_if(args.height.as_deref()).map_err(one)?;
     let normal = outputs.open_if(args.normal.as_deref()).map_err(one)?;
     let console = console.beside(&outputs);
-    let mut textures = Textures::open(&args.file).map_err(one)?;
-    let wanted = args.texture.as_deref();
-    let bytes = textures.choose(wanted).map_err(one)?;
-    let asset = Asset::parse(&bytes).map_err(|e| one(textures.error(wanted, e.into())))?;
+    let chosen = Chosen::open(&args.file, args.texture.clone())?;
+    let asset = chosen.asset()?;
     let anew = args.redraw || args.size.is_some() || height.is_some() || normal.is_some();
     let stored = asset.preview_png();
     let ((width, height_px), bytes, how) = match (&args.diffusion, stored.filter(|_| !anew)) {
