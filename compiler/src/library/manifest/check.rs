@@ -8,12 +8,12 @@ use super::{
     values::{Checker, OPTIONS, Stated},
 };
 use crate::{
+    library::check_name,
     passes::reduce::Fidelity,
     pipeline::Request,
-    sources::{self, Kind, ManifestSource, Operand, Registry},
+    sources::{self, Kind, ManifestSource, Operand, Registry, prompt::title},
     views::preview,
 };
-use asperity_formats::limits::MAX_NAME_BYTES;
 use asperity_io::input::InputProblem;
 use asperity_io::shown::suggestion;
 use std::{borrow::Cow, fs, io, path::PathBuf, sync::Arc};
@@ -189,9 +189,7 @@ impl Checker<'_> {
             // The missing source is reported.
             (None, None) => return None,
         };
-        let fits =
-            !name.is_empty() && name.len() <= MAX_NAME_BYTES && !name.chars().any(char::is_control);
-        if !fits {
+        if check_name(&name).is_err() {
             self.fault(line, "name", ManifestProblem::Name(name));
             return None;
         }
@@ -479,16 +477,4 @@ fn options(stated: &Stated, of: &GoesWith) -> Options {
             .filter(|_| takes("edit"))
             .unwrap_or_default(),
     }
-}
-
-/// Returns the beginning of a prompt as a name.
-fn title(prompt: &str) -> String {
-    let plain = prompt.replace(char::is_control, " ");
-    let words: Vec<&str> = plain.split_whitespace().collect();
-    let words = words.join(" ");
-    let mut end = words.len().min(MAX_NAME_BYTES);
-    while !words.is_char_boundary(end) {
-        end -= 1;
-    }
-    words[..end].trim_end().to_owned()
 }

@@ -8,6 +8,7 @@ use crate::{
         playback::{Track, Transient},
     },
     learned::edges,
+    library::check_name,
     pipeline::{Pass, Pipeline, Request, Ringing},
     sources::{ManifestSource, Source, SourceOutput, Tools, key::Parts},
 };
@@ -15,6 +16,7 @@ use asperity_formats::limits::MAX_NAME_BYTES;
 use asperity_io::{
     diagnostic::Failure,
     input::{self, Format, InputProblem},
+    shown::shortened,
 };
 use asperity_texture::model::{
     Friction, ModelGrid, Numerator, Provenance, TapBank, TapTrace, TextureModel, defaults,
@@ -139,7 +141,7 @@ impl Source for Effects {
         let (track, crc32) = pipeline.run(Pass::Read, || self.track(tools))?;
         let mut warnings = track.warnings.clone();
         let name = request.name.clone().unwrap_or_else(|| stem(file));
-        if name.is_empty() || name.len() > MAX_NAME_BYTES || name.chars().any(char::is_control) {
+        if check_name(&name).is_err() {
             return Err(self.refused(EffectProblem::Name(name)).into());
         }
         let whole = pipeline.run(Pass::Decode, || {
@@ -215,11 +217,7 @@ fn stem(file: &Path) -> String {
         .chars()
         .map(|c| if c.is_control() { '_' } else { c })
         .collect();
-    let mut end = plain.len().min(MAX_NAME_BYTES);
-    while !plain.is_char_boundary(end) {
-        end -= 1;
-    }
-    plain[..end].to_owned()
+    shortened(&plain, MAX_NAME_BYTES).to_owned()
 }
 
 /// The texture of a track; `None` for one that does not sound.

@@ -20,6 +20,7 @@ use crate::{
     sources::SourceOutput,
 };
 use asperity_formats::limits;
+use asperity_io::shown::shortened;
 use asperity_texture::model::{
     Provenance, TextureModel,
     shift::{Scales, adjust},
@@ -234,7 +235,7 @@ impl PromptCompiler {
         seed: u64,
     ) -> (TextureModel, Vec<Neighbour>) {
         let provenance = Provenance {
-            prompt: Some(shortened(prompt, KEPT_PROMPT_BYTES).to_owned()),
+            prompt: Some(shortened(prompt, KEPT_PROMPT_BYTES).trim_end().to_owned()),
             seed,
             ..self.model.provenance("compile")
         };
@@ -282,19 +283,13 @@ pub struct Projection {
 // Texts of a length that an asset can hold.
 
 /// A name that an asset can hold: the beginning of the prompt, without control characters.
-fn title(prompt: &str) -> String {
+pub(crate) fn title(prompt: &str) -> String {
     let plain = prompt.replace(char::is_control, " ");
     let words: Vec<&str> = plain.split_whitespace().collect();
-    shortened(&words.join(" "), limits::MAX_NAME_BYTES).to_owned()
-}
-
-/// The longest beginning of whole characters within a number of bytes.
-fn shortened(text: &str, bytes: usize) -> &str {
-    let mut end = text.len().min(bytes);
-    while !text.is_char_boundary(end) {
-        end -= 1;
-    }
-    text[..end].trim_end()
+    let words = words.join(" ");
+    shortened(&words, limits::MAX_NAME_BYTES)
+        .trim_end()
+        .to_owned()
 }
 
 // Another piece of the same material.
@@ -329,6 +324,5 @@ mod tests {
         assert_eq!(title(" wet\u{0}ice\n"), "wet ice");
         let long = title(&"ä".repeat(40));
         assert_eq!(long, "ä".repeat(32));
-        assert_eq!(shortened("a é", 3), "a");
     }
 }
