@@ -1,7 +1,7 @@
 //! The check of one row by itself. It goes on after a fault, so that all faults are reported at once.
 
 use super::{
-    entry::{Options, Place},
+    entry::{Options, Origin, Place},
     error::ManifestProblem,
     missing::{is_error, is_nothing},
     row::{Field, Row, Value},
@@ -11,12 +11,12 @@ use crate::{
     library::check_name,
     passes::reduce::Fidelity,
     pipeline::Request,
-    sources::{self, Kind, ManifestSource, Operand, Registry, prompt::title},
+    sources::{self, Kind, Operand, Registry, prompt::title},
     views::preview,
 };
 use asperity_io::input::InputProblem;
 use asperity_io::shown::suggestion;
-use std::{borrow::Cow, fs, io, path::PathBuf, sync::Arc};
+use std::{borrow::Cow, fs, io, path::PathBuf};
 
 /// Keys of what a texture is made of, where those are other textures.
 const OTHERS: [&str; 3] = ["of", "blend", "compose"];
@@ -48,31 +48,12 @@ fn is_origin(key: &str, registry: &Registry) -> bool {
 /// A row whose references to other textures are names yet.
 pub(super) struct Draft {
     pub(super) name: String,
-    pub(super) origin: DraftOrigin,
+    pub(super) origin: Origin<Reference>,
     pub(super) options: Options,
     pub(super) place: Place,
 }
 
-/// A source whose references are names, with the lines where they stand.
-pub(super) enum DraftOrigin {
-    Source {
-        key: &'static str,
-        source: Arc<dyn ManifestSource>,
-    },
-    Of(Reference),
-    Blend {
-        a: Reference,
-        b: Reference,
-        t: f64,
-    },
-    Compose {
-        tap: Reference,
-        slide: Reference,
-        friction: Reference,
-    },
-}
-
-/// A texture by name.
+/// A texture by name, with the line where it stands.
 #[derive(Clone)]
 pub(super) struct Reference {
     pub(super) name: String,
@@ -177,12 +158,12 @@ impl Checker<'_> {
     fn name(
         &mut self,
         field: Option<&Field>,
-        origin: Option<&DraftOrigin>,
+        origin: Option<&Origin<Reference>>,
         line: usize,
     ) -> Option<String> {
         let (name, line) = match (field, origin) {
             (Some(field), _) => (self.text(field, "name")?.to_owned(), field.line),
-            (None, Some(DraftOrigin::Source { source, .. })) => {
+            (None, Some(Origin::Source { source, .. })) => {
                 (source.prompt().map_or_else(String::new, title), line)
             }
             (None, Some(_)) => (String::new(), line),
@@ -243,7 +224,7 @@ impl Checker<'_> {
         field: &Field,
         row: &Row,
         seed: Option<u64>,
-    ) -> Option<DraftOrigin> {
+    ) -> Option<Origin<Reference>> {
         let key = kind.key;
         let text = self.text(field, key)?;
         if kind.operand == Operand::Text && is_nothing(text) {
@@ -280,7 +261,7 @@ impl Checker<'_> {
                 .unwrap_or(0),
         };
         match (kind.open)(&stated) {
-            Ok(source) => Some(DraftOrigin::Source { key, source }),
+            Ok(source) => Some(Origin::Source { key, source }),
             Err(failure) => {
                 self.fault(field.line, key, ManifestProblem::Source(failure));
                 None
@@ -288,12 +269,12 @@ impl Checker<'_> {
         }
     }
 
-    fn origin(&mut self, field: &Field, row: &Row, seed: Option<u64>) -> Option<DraftOrigin> {
+    fn origin(&mut self, field: &Field, row: &Row, seed: Option<u64>) -> Option<Origin<Reference>> {
         if let Some(kind) = self.registry.get(&field.key) {
             return self.source(*kind, field, row, seed);
         }
         match field.key.as_str() {
-            "of" => Some(DraftOrigin::Of(Reference {
+            "of" => Some(Origin::Of(Reference {
                 name: self.text(field, "of")?.to_owned(),
                 key: "of",
                 line: field.line,
@@ -306,7 +287,7 @@ impl Checker<'_> {
                     Some(t) => self.number(t, "blend.t", (0.0, 1.0), row.untyped),
                     None => Some(0.5),
                 };
-                Some(DraftOrigin::Blend {
+                Some(Origin::Blend {
                     a: a?,
                     b: b?,
                     t: t?,
@@ -321,7 +302,7 @@ impl Checker<'_> {
                     // What is slid on decides how slippery it is.
                     false => slide.clone(),
                 };
-                Some(DraftOrigin::Compose {
+                Some(Origin::Compose {
                     tap: tap?,
                     slide: slide?,
                     friction: friction?,
@@ -403,31 +384,26 @@ impl Checker<'_> {
     }
 
     /// The key of a source, and how a texture of it may be made.
-    fn goes_with(&self, origin: &DraftOrigin) -> GoesWith {
-        let mixed = |key| GoesWith {
-            key,
-            refuses: &["texture", "seed"],
-            fidelity: Fidelity::Auto,
-            preview: true,
-        };
-        match origin {
-            DraftOrigin::Source { key, .. } => match self.registry.get(key) {
-                Some(kind) => GoesWith {
-                    key,
-                    refuses: kind.refuses,
-                    fidelity: kind.fidelity,
-                    preview: kind.preview,
-                },
-                None => mixed(key),
+    fn goes_with(&self, origin: &Origin<Reference>) -> GoesWith {
+        let key = origin.key();
+        match self.registry.get(key) {
+            Some(kind) => GoesWith {
+                key,
+                refuses: kind.refuses,
+                fidelity: kind.fidelity,
+                preview: kind.preview,
             },
-            DraftOrigin::Of(_) => mixed("of"),
-            DraftOrigin::Blend { .. } => mixed("blend"),
-            DraftOrigin::Compose { .. } => mixed("compose"),
+            None => GoesWith {
+                key,
+                refuses: &["texture", "seed"],
+                fidelity: Fidelity::Auto,
+                preview: true,
+            },
         }
     }
 
     /// Refuses keys of a row that its source does not take.
-    fn placed(&mut self, row: &Row, origin: &DraftOrigin) {
+    fn placed(&mut self, row: &Row, origin: &Origin<Reference>) {
         let GoesWith { key, refuses, .. } = self.goes_with(origin);
         for field in &row.fields {
             if refuses.contains(&field.key.as_str()) {
