@@ -10,7 +10,7 @@ use super::{
 use crate::{
     edit_memory::{History, Latents, Memory},
     learned::{
-        Certainty, Decoded, Files, Latent, LearnedModel, ModelError, embedded,
+        Certainty, Decoded, Latent, LearnedModel, ModelError, embedded,
         friction::Neighbour,
         inference::Backend,
         text::{TextEncoder, WordStates, WordTable},
@@ -27,7 +27,7 @@ use asperity_texture::model::{
 };
 use rand_core::{Rng as _, SeedableRng as _};
 use rand_xoshiro::Xoshiro256PlusPlus;
-use std::{path::Path, sync::Arc};
+use std::sync::Arc;
 
 /// Bytes of a prompt that the provenance keeps.
 const KEPT_PROMPT_BYTES: usize = 2048;
@@ -81,18 +81,6 @@ impl PromptCompiler {
             together: matches!(backend, Backend::Portable),
             ..Self::new(Box::new(text), model)?
         })
-    }
-
-    /// A compiler of prompts, from a model folder.
-    ///
-    /// # Errors
-    /// As [`PromptCompiler::new`], and [`ModelError`] for a folder that is none.
-    pub fn with_folder(
-        text: Box<dyn TextEncoder>,
-        folder: &Path,
-        backend: &Backend,
-    ) -> Result<Self, ModelError> {
-        Self::new(text, LearnedModel::load(Files::read(folder)?, backend)?)
     }
 
     /// The learned model.
