@@ -236,7 +236,7 @@ impl Checker<'_> {
         }
         let path = match kind.operand {
             Operand::Text => PathBuf::new(),
-            Operand::Folder => self.folder(field, key)?,
+            Operand::Folder => self.path(field, key, text, true)?,
             // Nothing is asked about a path that the manifest may not name.
             Operand::File if !self.reaches(field, key, text, false) => return None,
             Operand::File => match text.rsplit_once('#') {
@@ -247,9 +247,9 @@ impl Checker<'_> {
                         && !self.folder.join(text).exists() =>
                 {
                     texture = Some(of);
-                    self.path(field, key, file)?
+                    self.path(field, key, file, false)?
                 }
-                _ => self.path(field, key, text)?,
+                _ => self.path(field, key, text, false)?,
             },
         };
         let stated = sources::Stated {
@@ -348,35 +348,21 @@ impl Checker<'_> {
     /// A file that is there; paths are relative to the manifest.
     pub(super) fn file(&mut self, field: &Field, key: &str) -> Option<PathBuf> {
         let stated = self.text(field, key)?;
-        self.path(field, key, stated)
+        self.path(field, key, stated, false)
     }
 
-    fn path(&mut self, field: &Field, key: &str, stated: &str) -> Option<PathBuf> {
-        if !self.reaches(field, key, stated, false) {
+    fn path(&mut self, field: &Field, key: &str, stated: &str, folder: bool) -> Option<PathBuf> {
+        if !self.reaches(field, key, stated, folder) {
             return None;
         }
         let file = self.folder.join(stated);
         let problem = match fs::metadata(&file) {
+            Ok(found) if folder && found.is_dir() => return Some(file),
+            Ok(_) if folder => return self.wrong_type(field.line, key, "a folder", &field.value),
             Ok(found) if found.is_file() => return Some(file),
             Ok(found) if found.is_dir() => InputProblem::Folder,
             // A pipe gives its bytes once, and a key needs them before.
             Ok(_) => InputProblem::Device,
-            Err(error) => unreadable(error),
-        };
-        self.fault(field.line, key, ManifestProblem::File { file, problem });
-        None
-    }
-
-    /// A folder that is there, likewise.
-    fn folder(&mut self, field: &Field, key: &str) -> Option<PathBuf> {
-        let stated = self.text(field, key)?;
-        if !self.reaches(field, key, stated, true) {
-            return None;
-        }
-        let file = self.folder.join(stated);
-        let problem = match fs::metadata(&file) {
-            Ok(found) if found.is_dir() => return Some(file),
-            Ok(_) => return self.wrong_type(field.line, key, "a folder", &field.value),
             Err(error) => unreadable(error),
         };
         self.fault(field.line, key, ManifestProblem::File { file, problem });
