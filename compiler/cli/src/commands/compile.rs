@@ -2,7 +2,7 @@
 
 use super::{
     diffusion,
-    one_texture::{Job, Wanted},
+    one_texture::{Job, Wanted, request},
 };
 use crate::cli::Compile;
 use asperity::{
@@ -40,10 +40,7 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
     let prompt_compiler = args.inference.setup().prompt_compiler()?;
     let request = Request {
         name: args.name.clone(),
-        fidelity: args.fidelity,
-        rate_hz: args.rate,
-        preview_px: args.preview.px(Some(preview::SIZE)),
-        ..Request::default()
+        ..request(args.fidelity, args.rate, &args.preview)
     };
     let picture = match &args.diffusion {
         Some(folder) => {

@@ -2,7 +2,7 @@
 
 use super::{
     inference,
-    one_texture::{Job, Wanted},
+    one_texture::{Job, Wanted, request},
 };
 use crate::cli::{ImportEffects, ImportModel, ImportRecording};
 use asperity::{
@@ -14,7 +14,6 @@ use asperity::{
         model_file::ModelFile,
         recording::RecordingFolder,
     },
-    views::preview,
 };
 use asperity_console::Console;
 use asperity_io::diagnostic::Failures;
@@ -24,12 +23,7 @@ pub(crate) fn model(args: &ImportModel, console: Console) -> Result<(), Failures
         file: args.input.clone(),
     };
     let wanted = Wanted::of(&args.output, args.reporting);
-    let request = Request {
-        fidelity: args.fidelity,
-        rate_hz: args.rate,
-        preview_px: args.preview.px(Some(preview::SIZE)),
-        ..Request::default()
-    };
+    let request = request(args.fidelity, args.rate, &args.preview);
     let job = Job::open(wanted, &source.inputs(), console)?;
     job.run(&source, &request, &Tools::default())
 }
@@ -50,10 +44,7 @@ pub(crate) fn effects(args: &ImportEffects, kind: Kind, console: Console) -> Res
     let wanted = Wanted::of(&args.output, args.reporting);
     let request = Request {
         name: args.name.clone(),
-        fidelity: args.fidelity,
-        rate_hz: args.rate,
-        preview_px: args.preview.px(Some(preview::SIZE)),
-        ..Request::default()
+        ..request(args.fidelity, args.rate, &args.preview)
     };
     let job = Job::open(wanted, &source.inputs(), console)?;
     job.run(&source, &request, &Tools::default())
@@ -72,12 +63,7 @@ pub(crate) fn recording(args: &ImportRecording, console: Console) -> Result<(), 
         report: args.report.as_deref(),
         ..Wanted::of(&args.output, args.reporting)
     };
-    let request = Request {
-        fidelity: args.fidelity,
-        rate_hz: args.rate,
-        preview_px: args.preview.px(Some(preview::SIZE)),
-        ..Request::default()
-    };
+    let request = request(args.fidelity, args.rate, &args.preview);
     let job = Job::open(wanted, &inputs, console)?;
     let model = inference::completer(args.model.as_deref())?;
     let tools = Tools {

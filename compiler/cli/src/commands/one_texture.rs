@@ -1,13 +1,14 @@
 //! Shared steps of all commands that compile a single texture: open the outputs, compile, write, report.
 
 use super::timings;
-use crate::cli::ReportOptions;
+use crate::cli::{PreviewOptions, ReportOptions};
 use asperity::{
     driver::{self, Compiled},
     emit::verify::VerifyError,
+    passes::reduce::Fidelity,
     pipeline::{Clock, Pass, Pipeline, Request},
     sources::{Source, Tools, model_file},
-    views::plot,
+    views::{plot, preview::SIZE},
 };
 use asperity_console::Console;
 use asperity_formats::Asset;
@@ -20,6 +21,20 @@ use asperity_plot::PlotError;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
+
+/// The request of a command with these options; without a preview option, a preview of the usual size is drawn.
+pub(super) fn request(
+    fidelity: Fidelity,
+    rate_hz: Option<f64>,
+    preview: &PreviewOptions,
+) -> Request {
+    Request {
+        fidelity,
+        rate_hz,
+        preview_px: preview.px(Some(SIZE)),
+        ..Request::default()
+    }
+}
 
 /// Requested outputs of a texture.
 pub(super) struct Wanted<'a> {
