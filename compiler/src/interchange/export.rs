@@ -13,7 +13,7 @@ use super::{
 use crate::{
     emit::raise::raise,
     views::{
-        listen::{Gesture, Stroke, perform},
+        listen::{self, Gesture, Stroke, perform},
         preview,
     },
 };
@@ -192,14 +192,7 @@ pub fn session(
         force_n: force_n.unwrap_or(STROKE.force_n),
         time_s: time_s.unwrap_or(STROKE.time_s),
     };
-    Gesture {
-        strokes: if taps && !stated {
-            Vec::new()
-        } else {
-            vec![stroke]
-        },
-        taps: taps || !stated,
-    }
+    Gesture::chosen(stated.then_some(stroke), taps, vec![stroke])
 }
 
 /// A texture in a format.
@@ -324,7 +317,7 @@ pub fn export(
                 .push("glTF holds one level and one frequency of the vibration, and no tap".into());
             (bytes, Some(track.unwrap_or_default()))
         }
-        ClipFormat::Wav => (wav::write(&wav::samples(&clip))?, None),
+        ClipFormat::Wav => (listen::wav(&wav::samples(&clip))?, None),
         ClipFormat::Csv => (csv::write(&clip), None),
     };
     let played = match (&track, format) {

@@ -1,22 +1,22 @@
 //! The check of one row by itself. It goes on after a fault, so that all faults are reported at once.
 
 use super::{
-    entry::{Options, Place},
+    entry::{Options, Origin, Place},
     error::ManifestProblem,
     missing::{is_error, is_nothing},
     row::{Field, Row, Value},
     values::{Checker, OPTIONS, Stated},
 };
 use crate::{
+    library::check_name,
     passes::reduce::Fidelity,
     pipeline::Request,
-    sources::{self, Kind, ManifestSource, Operand, Registry},
+    sources::{self, Kind, Operand, Registry, prompt::title},
     views::preview,
 };
-use asperity_formats::limits::MAX_NAME_BYTES;
 use asperity_io::input::InputProblem;
 use asperity_io::shown::suggestion;
-use std::{borrow::Cow, fs, io, path::PathBuf, sync::Arc};
+use std::{borrow::Cow, fs, io, path::PathBuf};
 
 /// Keys of what a texture is made of, where those are other textures.
 const OTHERS: [&str; 3] = ["of", "blend", "compose"];
@@ -48,31 +48,12 @@ fn is_origin(key: &str, registry: &Registry) -> bool {
 /// A row whose references to other textures are names yet.
 pub(super) struct Draft {
     pub(super) name: String,
-    pub(super) origin: DraftOrigin,
+    pub(super) origin: Origin<Reference>,
     pub(super) options: Options,
     pub(super) place: Place,
 }
 
-/// A source whose references are names, with the lines where they stand.
-pub(super) enum DraftOrigin {
-    Source {
-        key: &'static str,
-        source: Arc<dyn ManifestSource>,
-    },
-    Of(Reference),
-    Blend {
-        a: Reference,
-        b: Reference,
-        t: f64,
-    },
-    Compose {
-        tap: Reference,
-        slide: Reference,
-        friction: Reference,
-    },
-}
-
-/// A texture by name.
+/// A texture by name, with the line where it stands.
 #[derive(Clone)]
 pub(super) struct Reference {
     pub(super) name: String,
@@ -177,21 +158,19 @@ impl Checker<'_> {
     fn name(
         &mut self,
         field: Option<&Field>,
-        origin: Option<&DraftOrigin>,
+        origin: Option<&Origin<Reference>>,
         line: usize,
     ) -> Option<String> {
         let (name, line) = match (field, origin) {
             (Some(field), _) => (self.text(field, "name")?.to_owned(), field.line),
-            (None, Some(DraftOrigin::Source { source, .. })) => {
+            (None, Some(Origin::Source { source, .. })) => {
                 (source.prompt().map_or_else(String::new, title), line)
             }
             (None, Some(_)) => (String::new(), line),
             // The missing source is reported.
             (None, None) => return None,
         };
-        let fits =
-            !name.is_empty() && name.len() <= MAX_NAME_BYTES && !name.chars().any(char::is_control);
-        if !fits {
+        if check_name(&name).is_err() {
             self.fault(line, "name", ManifestProblem::Name(name));
             return None;
         }
@@ -245,7 +224,7 @@ impl Checker<'_> {
         field: &Field,
         row: &Row,
         seed: Option<u64>,
-    ) -> Option<DraftOrigin> {
+    ) -> Option<Origin<Reference>> {
         let key = kind.key;
         let text = self.text(field, key)?;
         if kind.operand == Operand::Text && is_nothing(text) {
@@ -257,7 +236,7 @@ impl Checker<'_> {
         }
         let path = match kind.operand {
             Operand::Text => PathBuf::new(),
-            Operand::Folder => self.folder(field, key)?,
+            Operand::Folder => self.path(field, key, text, true)?,
             // Nothing is asked about a path that the manifest may not name.
             Operand::File if !self.reaches(field, key, text, false) => return None,
             Operand::File => match text.rsplit_once('#') {
@@ -268,9 +247,9 @@ impl Checker<'_> {
                         && !self.folder.join(text).exists() =>
                 {
                     texture = Some(of);
-                    self.path(field, key, file)?
+                    self.path(field, key, file, false)?
                 }
-                _ => self.path(field, key, text)?,
+                _ => self.path(field, key, text, false)?,
             },
         };
         let stated = sources::Stated {
@@ -282,7 +261,7 @@ impl Checker<'_> {
                 .unwrap_or(0),
         };
         match (kind.open)(&stated) {
-            Ok(source) => Some(DraftOrigin::Source { key, source }),
+            Ok(source) => Some(Origin::Source { key, source }),
             Err(failure) => {
                 self.fault(field.line, key, ManifestProblem::Source(failure));
                 None
@@ -290,12 +269,12 @@ impl Checker<'_> {
         }
     }
 
-    fn origin(&mut self, field: &Field, row: &Row, seed: Option<u64>) -> Option<DraftOrigin> {
+    fn origin(&mut self, field: &Field, row: &Row, seed: Option<u64>) -> Option<Origin<Reference>> {
         if let Some(kind) = self.registry.get(&field.key) {
             return self.source(*kind, field, row, seed);
         }
         match field.key.as_str() {
-            "of" => Some(DraftOrigin::Of(Reference {
+            "of" => Some(Origin::Of(Reference {
                 name: self.text(field, "of")?.to_owned(),
                 key: "of",
                 line: field.line,
@@ -308,7 +287,7 @@ impl Checker<'_> {
                     Some(t) => self.number(t, "blend.t", (0.0, 1.0), row.untyped),
                     None => Some(0.5),
                 };
-                Some(DraftOrigin::Blend {
+                Some(Origin::Blend {
                     a: a?,
                     b: b?,
                     t: t?,
@@ -323,7 +302,7 @@ impl Checker<'_> {
                     // What is slid on decides how slippery it is.
                     false => slide.clone(),
                 };
-                Some(DraftOrigin::Compose {
+                Some(Origin::Compose {
                     tap: tap?,
                     slide: slide?,
                     friction: friction?,
@@ -369,15 +348,17 @@ impl Checker<'_> {
     /// A file that is there; paths are relative to the manifest.
     pub(super) fn file(&mut self, field: &Field, key: &str) -> Option<PathBuf> {
         let stated = self.text(field, key)?;
-        self.path(field, key, stated)
+        self.path(field, key, stated, false)
     }
 
-    fn path(&mut self, field: &Field, key: &str, stated: &str) -> Option<PathBuf> {
-        if !self.reaches(field, key, stated, false) {
+    fn path(&mut self, field: &Field, key: &str, stated: &str, folder: bool) -> Option<PathBuf> {
+        if !self.reaches(field, key, stated, folder) {
             return None;
         }
         let file = self.folder.join(stated);
         let problem = match fs::metadata(&file) {
+            Ok(found) if folder && found.is_dir() => return Some(file),
+            Ok(_) if folder => return self.wrong_type(field.line, key, "a folder", &field.value),
             Ok(found) if found.is_file() => return Some(file),
             Ok(found) if found.is_dir() => InputProblem::Folder,
             // A pipe gives its bytes once, and a key needs them before.
@@ -388,48 +369,27 @@ impl Checker<'_> {
         None
     }
 
-    /// A folder that is there, likewise.
-    fn folder(&mut self, field: &Field, key: &str) -> Option<PathBuf> {
-        let stated = self.text(field, key)?;
-        if !self.reaches(field, key, stated, true) {
-            return None;
-        }
-        let file = self.folder.join(stated);
-        let problem = match fs::metadata(&file) {
-            Ok(found) if found.is_dir() => return Some(file),
-            Ok(_) => return self.wrong_type(field.line, key, "a folder", &field.value),
-            Err(error) => unreadable(error),
-        };
-        self.fault(field.line, key, ManifestProblem::File { file, problem });
-        None
-    }
-
     /// The key of a source, and how a texture of it may be made.
-    fn goes_with(&self, origin: &DraftOrigin) -> GoesWith {
-        let mixed = |key| GoesWith {
-            key,
-            refuses: &["texture", "seed"],
-            fidelity: Fidelity::Auto,
-            preview: true,
-        };
-        match origin {
-            DraftOrigin::Source { key, .. } => match self.registry.get(key) {
-                Some(kind) => GoesWith {
-                    key,
-                    refuses: kind.refuses,
-                    fidelity: kind.fidelity,
-                    preview: kind.preview,
-                },
-                None => mixed(key),
+    fn goes_with(&self, origin: &Origin<Reference>) -> GoesWith {
+        let key = origin.key();
+        match self.registry.get(key) {
+            Some(kind) => GoesWith {
+                key,
+                refuses: kind.refuses,
+                fidelity: kind.fidelity,
+                preview: kind.preview,
             },
-            DraftOrigin::Of(_) => mixed("of"),
-            DraftOrigin::Blend { .. } => mixed("blend"),
-            DraftOrigin::Compose { .. } => mixed("compose"),
+            None => GoesWith {
+                key,
+                refuses: &["texture", "seed"],
+                fidelity: Fidelity::Auto,
+                preview: true,
+            },
         }
     }
 
     /// Refuses keys of a row that its source does not take.
-    fn placed(&mut self, row: &Row, origin: &DraftOrigin) {
+    fn placed(&mut self, row: &Row, origin: &Origin<Reference>) {
         let GoesWith { key, refuses, .. } = self.goes_with(origin);
         for field in &row.fields {
             if refuses.contains(&field.key.as_str()) {
@@ -479,16 +439,4 @@ fn options(stated: &Stated, of: &GoesWith) -> Options {
             .filter(|_| takes("edit"))
             .unwrap_or_default(),
     }
-}
-
-/// Returns the beginning of a prompt as a name.
-fn title(prompt: &str) -> String {
-    let plain = prompt.replace(char::is_control, " ");
-    let words: Vec<&str> = plain.split_whitespace().collect();
-    let words = words.join(" ");
-    let mut end = words.len().min(MAX_NAME_BYTES);
-    while !words.is_char_boundary(end) {
-        end -= 1;
-    }
-    words[..end].trim_end().to_owned()
 }

@@ -2,13 +2,13 @@
 
 use super::{
     error::{Fault, ModelFileProblem as Problem},
-    schema::{Document, Friction, Grid, Taps, Vertex},
+    schema::{Document, Grid},
 };
+use crate::library::check_name;
 use asperity_formats::limits;
-use asperity_texture::model::triangulate;
 use asperity_texture::model::{
-    self, FrictionLaw, Gains, GridVertex, ModelGrid, Numerator, TapBank, TapTrace, TextureModel,
-    Wall, defaults, mesh, tap_synthesis,
+    self, Friction, FrictionLaw, Gains, GridVertex, ModelGrid, Numerator, TapBank, TextureModel,
+    Wall, defaults, mesh, tap_synthesis, triangulate,
 };
 use std::f64::consts::PI;
 
@@ -102,12 +102,10 @@ fn grid(stated: Grid) -> Result<ModelGrid, Fault> {
             limits::MAX_ORDER,
         )?;
     }
-    let vertices = stated
-        .vertices
-        .into_iter()
-        .enumerate()
-        .map(|(index, vertex)| self::vertex(index, vertex, numerator, (order, ma_order)))
-        .collect::<Result<Vec<_>, _>>()?;
+    for (index, vertex) in stated.vertices.iter().enumerate() {
+        self::vertex(index, vertex, numerator, (order, ma_order))?;
+    }
+    let vertices = stated.vertices;
     let is_stated = stated.triangles.is_some();
     let triangles = match stated.triangles {
         Some(triangles) => {
@@ -141,10 +139,10 @@ fn grid(stated: Grid) -> Result<ModelGrid, Fault> {
 
 fn vertex(
     index: usize,
-    stated: Vertex,
+    stated: &GridVertex,
     numerator: Numerator,
     (order, ma_order): (usize, usize),
-) -> Result<GridVertex, Fault> {
+) -> Result<(), Fault> {
     let field = |name: &str| format!("grid.vertices[{index}].{name}");
     let up_to = |name: &str, value, high: f32| in_range(&field(name), value, (0.0, high));
     up_to("speed_mm_s", stated.speed_mm_s, limits::MAX_SPEED_MM_S)?;
@@ -152,31 +150,18 @@ fn vertex(
     up_to("sigma_m_s2", stated.sigma_m_s2, limits::MAX_SIGMA_M_S2)?;
     frequencies(&field("lsf_rad"), &stated.lsf_rad, order)?;
     let fault = |name: &str, what| Err((field(name), Problem::Numerator(what)));
-    match (numerator, &stated.ma_lsf_rad, stated.gain) {
-        (Numerator::Lsf, None, _) => {
-            return fault("ma_lsf_rad", "is absent, but grid.numerator is \"lsf\"");
-        }
-        (Numerator::Lsf, Some(zeros), gain) => {
+    match (numerator, &stated.ma_lsf_rad) {
+        (Numerator::Lsf, None) => fault("ma_lsf_rad", "is absent, but grid.numerator is \"lsf\""),
+        (Numerator::Lsf, Some(zeros)) => {
             frequencies(&field("ma_lsf_rad"), zeros, ma_order)?;
-            up_to("gain", gain.unwrap_or(1.0), limits::MAX_GAIN)?;
+            up_to("gain", stated.gain, limits::MAX_GAIN)
         }
-        (_, Some(_), _) => {
-            return fault("ma_lsf_rad", "is given, but grid.numerator is not \"lsf\"");
+        (_, Some(_)) => fault("ma_lsf_rad", "is given, but grid.numerator is not \"lsf\""),
+        (_, None) if stated.gain != 1.0 => {
+            fault("gain", "is not 1, but grid.numerator is not \"lsf\"")
         }
-        (_, None, Some(gain)) if gain != 1.0 => {
-            return fault("gain", "is not 1, but grid.numerator is not \"lsf\"");
-        }
-        _ => {}
+        _ => Ok(()),
     }
-    Ok(GridVertex {
-        speed_mm_s: stated.speed_mm_s,
-        force_n: stated.force_n,
-        kind: stated.kind,
-        lsf_rad: stated.lsf_rad,
-        ma_lsf_rad: stated.ma_lsf_rad,
-        gain: stated.gain.unwrap_or(1.0),
-        sigma_m_s2: stated.sigma_m_s2,
-    })
 }
 
 /// Every vertex has a place of its own: of two at one place, one model would be lost.
@@ -213,7 +198,7 @@ fn frequencies(field: &str, lsf_rad: &[f64], order: usize) -> Result<(), Fault> 
     ascending(lsf_rad.iter().copied(), |index| format!("{field}[{index}]"))
 }
 
-fn taps(stated: Option<Taps>) -> Result<TapBank, Fault> {
+fn taps(stated: Option<TapBank>) -> Result<TapBank, Fault> {
     let Some(stated) = stated else {
         return Ok(TapBank {
             // An asset without taps states a rate all the same.
@@ -242,20 +227,10 @@ fn taps(stated: Option<Taps>) -> Result<TapBank, Fault> {
     }
     let speeds = stated.traces.iter().map(|trace| trace.speed_m_s);
     ascending(speeds, |index| format!("taps.traces[{index}].speed_m_s"))?;
-    Ok(TapBank {
-        sample_rate_hz: stated.sample_rate_hz,
-        traces: stated
-            .traces
-            .into_iter()
-            .map(|trace| TapTrace {
-                speed_m_s: trace.speed_m_s,
-                accel_m_s2: trace.accel_m_s2,
-            })
-            .collect(),
-    })
+    Ok(stated)
 }
 
-fn friction(stated: Friction) -> Result<model::Friction, Fault> {
+fn friction(stated: Friction) -> Result<Friction, Fault> {
     in_range("friction.mu", stated.mu, (0.0, limits::MAX_MU))?;
     length(
         "friction.anchors",
@@ -272,11 +247,7 @@ fn friction(stated: Friction) -> Result<model::Friction, Fault> {
     if let Some(law) = &stated.law {
         self::law(law, stated.mu)?;
     }
-    Ok(model::Friction {
-        mu: stated.mu,
-        anchors: stated.anchors,
-        law: stated.law,
-    })
+    Ok(stated)
 }
 
 fn law(law: &FrictionLaw, mu: f64) -> Result<(), Fault> {
@@ -318,13 +289,10 @@ fn rate() -> (f32, f32) {
 }
 
 fn name(field: &str, text: &str) -> Result<(), Fault> {
-    let fits = (1..=limits::MAX_NAME_BYTES).contains(&text.len());
-    if fits && !text.chars().any(char::is_control) {
-        Ok(())
-    } else {
+    check_name(text).map_err(|_| {
         let shown = text.chars().take(limits::MAX_NAME_BYTES).collect();
-        Err((field.into(), Problem::Name(shown)))
-    }
+        (field.into(), Problem::Name(shown))
+    })
 }
 
 /// A number within a range of the format; one that an asset would round to infinity is outside.

@@ -14,7 +14,7 @@ mod sheet;
 mod source;
 mod texture;
 
-pub use analyse::{Analysis, Step, analyse, check};
+pub use analyse::{Analysis, analyse, check};
 pub use complete::{Completed, Nearest, complete};
 pub use error::RecordingFailure;
 pub use sheet::{HEIGHT_PX, WIDTH_PX};
