@@ -10,11 +10,10 @@ use crate::{
     sources::prompt::{PromptCompiler, reading},
 };
 use asperity_io::{
-    diagnostic::{Diagnostic, Failures, one},
+    diagnostic::{Failures, Fault, one},
     input::{self, InputError, Kind},
 };
 use std::path::{Path, PathBuf};
-use thiserror::Error;
 
 /// Which networks are run, and where.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -27,33 +26,15 @@ pub struct Setup {
     pub backend: BackendName,
 }
 
-/// A manifest asks for networks that do not exist.
-#[derive(Debug, Error)]
-#[error("{file}: defaults.{key}: {message}", file = file.display())]
-struct Unknown {
-    file: PathBuf,
-    key: &'static str,
-    message: String,
-}
-
-impl Diagnostic for Unknown {
-    fn remedy(&self) -> String {
-        "correct the value".into()
-    }
-}
-
 impl Setup {
     /// This one, and that of the manifest where this has the usual ones.
     ///
     /// # Errors
     /// For a text encoder or a back end that the manifest names and that does not exist.
     pub fn within(&self, manifest: &Manifest) -> Result<Self, Failures> {
-        let wrong = |key: &'static str, message: String| {
-            one(Unknown {
-                file: manifest.file.clone(),
-                key,
-                message,
-            })
+        let wrong = |key: &str, message: String| {
+            let fault = Fault::new(message, "correct the value").at(&manifest.file);
+            one(fault.field(format!("defaults.{key}")))
         };
         let stated = &manifest.setup;
         let mut setup = self.clone();

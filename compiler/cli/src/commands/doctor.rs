@@ -8,7 +8,7 @@ use asperity::learned::{
 };
 use asperity_console::Console;
 use asperity_io::{
-    diagnostic::{Diagnostic, Failures, one},
+    diagnostic::{Diagnostic as _, Failures, Fault, one},
     realtime::{self, Setting},
     shown::size,
 };
@@ -39,27 +39,11 @@ pub(crate) fn run(args: &Doctor, console: Console) -> Result<(), Failures> {
     };
     printed.map_err(one)?;
     match findings.iter().find(|f| !f.found && asked(f)) {
-        Some(missing) => Err(one(Missing {
-            what: missing.what,
-            detail: missing.detail.clone(),
-            remedy: missing.remedy.clone().unwrap_or_default(),
-        })),
+        Some(missing) => {
+            let remedy = missing.remedy.clone().unwrap_or_default();
+            Err(one(Fault::new(&missing.detail, remedy).field(missing.what)))
+        }
         None => Ok(()),
-    }
-}
-
-/// Something asked for that is not there.
-#[derive(Debug, thiserror::Error)]
-#[error("{what}: {detail}")]
-struct Missing {
-    what: &'static str,
-    detail: String,
-    remedy: String,
-}
-
-impl Diagnostic for Missing {
-    fn remedy(&self) -> String {
-        self.remedy.clone()
     }
 }
 

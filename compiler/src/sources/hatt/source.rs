@@ -12,7 +12,7 @@ use crate::{
     sources::{Findings, ManifestSource, Source, SourceOutput, Tools, key::Parts},
 };
 use asperity_io::{
-    diagnostic::{Diagnostic, Failure},
+    diagnostic::{Diagnostic as _, Failure, Fault},
     input::{self, InputProblem, Kind},
 };
 use asperity_texture::{model::TextureModel, signal::spectrum::ArmaModel};
@@ -21,7 +21,6 @@ use std::{
     path::{Path, PathBuf},
     sync::Arc,
 };
-use thiserror::Error;
 
 /// Largest RMS log-spectral error of a vertex against its source, dB.
 pub const BUDGET_DB: f64 = 0.5;
@@ -124,9 +123,10 @@ impl Source for Hatt {
             let model = tools.model()?;
             pipeline
                 .run(Pass::Complete, || complete(&mut texture, model))
-                .map_err(|cause| NotCompleted {
-                    file: self.file.clone(),
-                    cause,
+                .map_err(|cause| {
+                    Fault::new(&cause, cause.remedy())
+                        .at(&self.file)
+                        .field("taps")
                 })?;
         }
         let recomputed =
@@ -157,20 +157,6 @@ impl Findings for Recomputed {
             0 => compiled.line(),
             lists => format!("{}, {lists} LSF lists recomputed", compiled.line()),
         }
-    }
-}
-
-/// The learned model could not decode the taps.
-#[derive(Debug, Error)]
-#[error("{file}: taps: {cause}", file = file.display())]
-struct NotCompleted {
-    file: PathBuf,
-    cause: ModelError,
-}
-
-impl Diagnostic for NotCompleted {
-    fn remedy(&self) -> String {
-        self.cause.remedy()
     }
 }
 
