@@ -52,6 +52,14 @@ impl Fault {
         }
     }
 
+    /// The text, the remedy and the exit status of another error.
+    pub fn of(error: &dyn Diagnostic) -> Self {
+        Self {
+            usage: error.is_usage(),
+            ..Self::new(error, error.remedy())
+        }
+    }
+
     /// Sets the file or the folder.
     pub fn at(self, file: impl Into<PathBuf>) -> Self {
         let file = Some(file.into());
@@ -68,6 +76,14 @@ impl Fault {
     pub fn field(self, field: impl Into<String>) -> Self {
         let field = field.into();
         Self { field, ..self }
+    }
+
+    /// Puts a suggestion, if there is one, before the remedy.
+    pub fn suggest(mut self, suggestion: Option<String>) -> Self {
+        if let Some(suggestion) = suggestion {
+            self.remedy = format!("{suggestion} {}", self.remedy);
+        }
+        self
     }
 
     /// Makes it a usage error.

@@ -62,12 +62,12 @@
 pub mod channel;
 pub mod check;
 pub mod description;
-mod error;
 mod file;
 pub mod friction;
 pub mod impact;
 mod least_squares;
 pub mod reader;
+mod remedy;
 pub mod resonance;
 pub mod segments;
 pub mod signal;
@@ -75,5 +75,3 @@ pub mod signal;
 #[cfg(test)]
 mod test_recordings;
 pub mod timeline;
-
-pub use error::{Problem, RecordingError};

@@ -9,9 +9,8 @@ use asperity_io::{
     shown::counted,
 };
 use asperity_recording::{
-    Problem, RecordingError,
     check::{Checked, Severity},
-    description::{FILE_NAME, is_absent, propose},
+    description::{FILE_NAME, is_absent, no_description, propose},
 };
 use serde_json::json;
 
@@ -34,9 +33,7 @@ fn init(args: &RecordCheck, console: Console) -> Result<(), Failures> {
         refused(what, "copy the sensor files into the folder first")
     })?;
     if draft.files == 0 {
-        let proposal = Some(draft);
-        let problem = Problem::NoDescription { proposal };
-        return Err(one(RecordingError::of(&args.folder, problem)));
+        return Err(one(no_description(&args.folder, Some(&draft))));
     }
     let draft = draft.text;
     let mut outputs = Outputs::beside([&args.folder]);
@@ -62,11 +59,10 @@ pub(crate) fn run(args: &RecordCheck, console: Console) -> Result<(), Failures> 
     let checked = match recording::check(&args.folder) {
         Ok((_, checked, _)) => checked,
         Err(error) => {
-            if let Problem::NoDescription {
-                proposal: Some(proposal),
-            } = &error.problem
+            if !args.json
+                && is_absent(&args.folder)
+                && let Ok(Some(proposal)) = propose(&args.folder)
                 && proposal.files > 0
-                && !args.json
             {
                 console.text(&proposal.text).map_err(one)?;
             }

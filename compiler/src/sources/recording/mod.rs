@@ -8,7 +8,6 @@
 
 mod analyse;
 mod complete;
-mod error;
 mod grid;
 mod report;
 mod sheet;
@@ -17,7 +16,6 @@ mod texture;
 
 pub use analyse::{Analysis, Step, analyse, check};
 pub use complete::{Completed, Nearest, complete};
-pub use error::RecordingFailure;
 pub use grid::{GridFit, Slopes, Tried, VertexFacts, fit};
 pub use sheet::{HEIGHT_PX, WIDTH_PX};
 pub use source::{KIND, Recorded, RecordingFolder};

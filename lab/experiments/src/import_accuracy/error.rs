@@ -1,7 +1,7 @@
 //! Errors of the bench.
 
-use asperity::{learned::ModelError, sources::recording::RecordingFailure};
-use asperity_io::diagnostic::Diagnostic;
+use asperity::learned::ModelError;
+use asperity_io::diagnostic::{Diagnostic, Fault};
 use thiserror::Error;
 
 /// A bench that could not run.
@@ -24,7 +24,7 @@ pub enum ImportAccuracyError {
     Model(#[from] ModelError),
     /// The import.
     #[error(transparent)]
-    Import(#[from] RecordingFailure),
+    Import(#[from] Fault),
 }
 
 impl Diagnostic for ImportAccuracyError {
