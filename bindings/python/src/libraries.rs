@@ -2,7 +2,7 @@
 
 use crate::{error::Failure, library::Library, records, texture::Texture};
 use asperity::{
-    library::{self, LibraryFault, LoadedLibrary},
+    library::{self, LoadedLibrary},
     sources::latents::EditError,
 };
 use asperity_io::output;
@@ -66,9 +66,7 @@ pub(crate) fn merge(libraries: &Bound<'_, PyAny>, path: Option<PathBuf>) -> PyRe
     for (index, part) in libraries.try_iter()?.enumerate() {
         let part: Part<'_> = part?.extract()?;
         let part = part.loaded(py, format!("libraries[{index}]"))?;
-        if part.has_scene {
-            return Err(Failure::from(LibraryFault::Scene(part.shown)).into());
-        }
+        part.refuse_scene().map_err(Failure::from)?;
         parts.push(part);
     }
     let merged = py.detach(|| {

@@ -31,6 +31,7 @@ mod edited;
 mod encode;
 mod error;
 mod explain;
+mod fault;
 mod latent_editor;
 mod loudness;
 mod mix;
@@ -46,6 +47,7 @@ pub use crate::edit_memory::{
 };
 pub use encode::{Encoded, Part, encode};
 pub use error::EditError;
+pub(crate) use fault::not_understood;
 pub use explain::{Explanation, WordEffect, explain};
 pub use latent_editor::LatentEditor;
 pub use loudness::equal_loudness;

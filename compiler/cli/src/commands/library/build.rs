@@ -5,9 +5,7 @@ use crate::{
     commands::{inference, timings},
 };
 use asperity::{
-    library::{
-        Build, BuildFile, Cache, Lock, Manifest, Pinned, Request, Setup, manifest::ManifestError,
-    },
+    library::{Build, BuildFile, Cache, Lock, Manifest, Pinned, Request, Setup},
     pipeline::{Clock, Pass, Pipeline},
     sources::Registry,
 };
@@ -175,7 +173,7 @@ impl Pins {
     }
 }
 
-fn boxed(errors: Vec<ManifestError>) -> Failures {
+fn boxed(errors: Vec<Fault>) -> Failures {
     let boxed = errors
         .into_iter()
         .map(|error| Box::new(error) as Box<dyn Diagnostic>);
