@@ -1,10 +1,7 @@
 //! `asperity.merge` and `diff`, and what they read.
 
 use crate::{error::Failure, library::Library, records, texture::Texture};
-use asperity::{
-    library::{self, LoadedLibrary},
-    sources::latents::EditError,
-};
+use asperity::library::{self, LoadedLibrary};
 use asperity_io::output;
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -106,6 +103,5 @@ pub(crate) fn diff<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let (old, new) = (old.loaded(py, "old".into())?, new.loaded(py, "new".into())?);
     let difference = py.detach(|| library::diff(&old, &new));
-    let difference = difference.map_err(|error| Failure::from(EditError::from(error)))?;
-    records::value(py, &difference)
+    records::value(py, &difference.map_err(Failure::from)?)
 }

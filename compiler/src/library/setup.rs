@@ -3,8 +3,9 @@
 use super::{lock::Pinned, manifest::Manifest};
 use crate::{
     learned::{
-        Files, LearnedModel, ModelError, embedded,
-        inference::{Backend, BackendName},
+        Files, LearnedModel, embedded,
+        files::wrong_file,
+        inference::{Backend, BackendName, not_installed},
         text::{TextEncoder, TextEncoderChoice, clip::Clip},
     },
     sources::prompt::{PromptCompiler, reading},
@@ -56,7 +57,7 @@ impl Setup {
     /// # Errors
     /// Where a file cannot be read, does not fit the others, or a library is missing.
     pub fn prompt_compiler(&self) -> Result<PromptCompiler, Failures> {
-        let backend = Backend::open(self.backend).map_err(one)?;
+        let backend = Backend::open(self.backend).map_err(|error| one(not_installed(error)))?;
         if self.model.is_none() && self.text_encoder == TextEncoderChoice::MiniLm {
             return PromptCompiler::embedded(&backend).map_err(one);
         }
@@ -100,12 +101,8 @@ impl Setup {
             name: String,
         }
         let files = self.folder()?;
-        let named: Named = serde_json::from_str(&files.description).map_err(|error| {
-            one(ModelError::Description {
-                file: "model.json".into(),
-                message: error.to_string(),
-            })
-        })?;
+        let named: Named = serde_json::from_str(&files.description)
+            .map_err(|error| one(wrong_file("model.json", error)))?;
         let (text_encoder, text_encoder_crc32) = match &self.text_encoder {
             TextEncoderChoice::MiniLm => {
                 let mut crc = crc32fast::Hasher::new();

@@ -146,7 +146,6 @@ pub fn open(folder: &Path, backend: BackendName) -> Result<Model, Fault> {
         optional(VAE_CONFIG)?,
     );
     let running = Backend::open(backend).map_err(|error| {
-        let error = error.cause();
         let what = format!("--diffusion runs on ONNX Runtime: {error}");
         Fault::new(what, error.remedy())
     })?;

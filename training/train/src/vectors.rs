@@ -4,7 +4,8 @@ use crate::{
     error::FitError,
     weights::{self, Read, Table},
 };
-use asperity::learned::text::{Encoded, TextEncoder, TextError};
+use asperity::learned::text::{Encoded, TextEncoder};
+use asperity_io::diagnostic::Fault;
 use serde::{Deserialize, Serialize};
 use std::{
     collections::BTreeMap,
@@ -124,7 +125,7 @@ impl TextEncoder for Remembered<'_> {
     }
 
     /// A remembered text says nothing of its tokens.
-    fn encode(&self, text: &str) -> Result<Encoded, TextError> {
+    fn encode(&self, text: &str) -> Result<Encoded, Fault> {
         let known = self.known().get(text).cloned();
         if let Some(vector) = known {
             return Ok(Encoded {
@@ -154,7 +155,7 @@ mod tests {
         fn width(&self) -> usize {
             WordBag.width()
         }
-        fn encode(&self, text: &str) -> Result<Encoded, TextError> {
+        fn encode(&self, text: &str) -> Result<Encoded, Fault> {
             let mut encoded = WordBag.encode(text)?;
             encoded.vector.reverse();
             Ok(encoded)

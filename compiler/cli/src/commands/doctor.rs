@@ -2,13 +2,13 @@
 
 use crate::cli::Doctor;
 use asperity::learned::{
-    LearnedModel, ModelError, Present, embedded,
-    inference::{Backend, BackendName},
+    LearnedModel, Present, embedded,
+    inference::{Backend, BackendName, not_installed},
     text::{TextEncoder, TextEncoderChoice},
 };
 use asperity_console::Console;
 use asperity_io::{
-    diagnostic::{Diagnostic as _, Failures, Fault, one},
+    diagnostic::{Failures, Fault, one},
     realtime::{self, Setting},
     shown::size,
 };
@@ -51,7 +51,7 @@ pub(crate) fn run(args: &Doctor, console: Console) -> Result<(), Failures> {
 const PROBE: &str = "surface";
 
 /// Runs every network once: a file that is there may be cut off, or of another model.
-fn runs(model: &LearnedModel) -> Result<(), ModelError> {
+fn runs(model: &LearnedModel) -> Result<(), Fault> {
     let description = model.description();
     let width = description.text_encoder.width;
     let vector = vec![1.0 / (width as f32).sqrt(); width];
@@ -131,7 +131,7 @@ fn findings(args: &Doctor) -> Vec<Finding> {
             what: "onnxruntime",
             found: false,
             detail: error.to_string(),
-            remedy: Some(asperity::learned::inference::BackendError::from(error).remedy()),
+            remedy: Some(not_installed(error).remedy),
         },
     });
     findings.push(clip(args));
@@ -153,7 +153,7 @@ fn clip(args: &Doctor) -> Finding {
         };
     };
     let opened = Backend::open(args.inference.backend)
-        .map_err(one)
+        .map_err(|error| one(not_installed(error)))
         .and_then(|backend| args.inference.setup().text_encoder(&backend));
     check(
         "clip",

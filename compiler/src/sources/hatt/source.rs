@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     compiled::{Compiled, ErrorReference},
-    learned::{LearnedModel, ModelError, complete},
+    learned::{LearnedModel, complete},
     pipeline::{Pass, Pipeline, Request},
     sources::{Findings, ManifestSource, Source, SourceOutput, Tools, key::Parts},
 };
@@ -163,7 +163,7 @@ fn read(file: &Path, tools: &Tools<'_>) -> Result<(Material, TextureModel), Faul
 }
 
 /// Taps from the AR grid, by the learned model.
-fn complete(texture: &mut TextureModel, model: &LearnedModel) -> Result<(), ModelError> {
+fn complete(texture: &mut TextureModel, model: &LearnedModel) -> Result<(), Fault> {
     texture.taps = complete::taps_of_grid(model, &texture.grid, &texture.gains)?;
     texture.provenance.notes = format!(
         "Taps decoded from the AR grid by the learned model {} (trained on synthetic taps). {}",

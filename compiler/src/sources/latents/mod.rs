@@ -29,7 +29,6 @@
 mod attribute_cache;
 mod edited;
 mod encode;
-mod error;
 mod explain;
 mod fault;
 mod latent_editor;
@@ -42,13 +41,12 @@ mod source;
 mod worded;
 
 pub use crate::edit_memory::{
-    AXES, Axis, History, HistoryError, Ingredient, Latents, Memory, Origin, Sliders, Step,
-    remembered,
+    AXES, Axis, History, Ingredient, Latents, Memory, Origin, Sliders, Step, remembered,
 };
 pub use encode::{Encoded, Part, encode};
-pub use error::EditError;
-pub(crate) use fault::not_understood;
 pub use explain::{Explanation, WordEffect, explain};
+pub use fault::nothing_asked;
+pub(crate) use fault::{no_latent, not_understood};
 pub use latent_editor::LatentEditor;
 pub use loudness::equal_loudness;
 pub use mix::{Mix, MixOptions, MixPreview, MixReport};

@@ -1,6 +1,5 @@
 //! Errors of the bench.
 
-use asperity::learned::ModelError;
 use asperity_io::diagnostic::{Diagnostic, Fault};
 use thiserror::Error;
 
@@ -19,10 +18,7 @@ pub enum ImportAccuracyError {
     /// A file of the recording.
     #[error("the recording cannot be written ({0})")]
     Write(#[from] std::io::Error),
-    /// The learned model, which textures are taken from.
-    #[error(transparent)]
-    Model(#[from] ModelError),
-    /// The import.
+    /// The import, or the learned model, which textures are taken from.
     #[error(transparent)]
     Import(#[from] Fault),
 }
@@ -32,7 +28,6 @@ impl Diagnostic for ImportAccuracyError {
         match self {
             Self::Texture { .. } => "give another texture".into(),
             Self::Write(_) => "free space in the folder for temporary files".into(),
-            Self::Model(error) => error.remedy(),
             Self::Import(error) => error.remedy(),
         }
     }

@@ -5,8 +5,9 @@ use super::{
     signature::{Objective, Signature},
 };
 use crate::{attributes::Layout, trained::Seen};
-use asperity::{model::{attributes, Provenance, shift}, learned::{inference::Backend, Decoded, Files, Latent, LearnedModel, ModelError, Present, Projected, description::ModelDescription, friction, texture}};
+use asperity::{model::{attributes, Provenance, shift}, learned::{inference::Backend, Decoded, Files, Latent, LearnedModel, Present, Projected, description::ModelDescription, friction, texture}};
 use asperity_corpus::{BINS, CHANNELS, Instance, ORDER, TAP_SAMPLES, TAPS};
+use asperity_io::diagnostic::Fault;
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -78,7 +79,7 @@ impl Subject {
     /// Where text vectors land.
     pub(super) fn project(&self, vectors: &[Vec<f32>]) -> Result<Vec<Projected>, EvaluateError> {
         let projected = vectors.par_iter().map(|v| self.model.project(v));
-        Ok(projected.collect::<Result<_, ModelError>>()?)
+        Ok(projected.collect::<Result<_, Fault>>()?)
     }
 
     /// Posterior means of instances.
@@ -96,7 +97,7 @@ impl Subject {
                 Seen::Taps => Present::Taps(taps),
             })
         });
-        Ok(means.collect::<Result<_, ModelError>>()?)
+        Ok(means.collect::<Result<_, Fault>>()?)
     }
 
     /// Decodes latents, with the friction of their neighbours.
@@ -109,7 +110,7 @@ impl Subject {
                 signature,
             })
         });
-        Ok(textures.collect::<Result<_, ModelError>>()?)
+        Ok(textures.collect::<Result<_, Fault>>()?)
     }
 
     /// Attributes of the textures of texts: what the latents decode to, moved to what the words ask
@@ -133,7 +134,7 @@ impl Subject {
                 mu: attributes.mu,
             })
         });
-        Ok(felt.collect::<Result<_, ModelError>>()?)
+        Ok(felt.collect::<Result<_, Fault>>()?)
     }
 
     /// μ from the neighbours of a latent.

@@ -3,7 +3,8 @@
 
 use super::{EvaluateError, Watch, cache, watch::pause};
 use crate::{error::FitError, vectors::Remembered};
-use asperity::learned::text::{Encoded, TextEncoder, TextError};
+use asperity::learned::text::{Encoded, TextEncoder};
+use asperity_io::diagnostic::Fault;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -88,7 +89,7 @@ impl TextEncoder for Texts<'_> {
         self.remembered.width()
     }
 
-    fn encode(&self, text: &str) -> Result<Encoded, TextError> {
+    fn encode(&self, text: &str) -> Result<Encoded, Fault> {
         self.remembered.encode(text)
     }
 }

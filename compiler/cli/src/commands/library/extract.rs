@@ -1,10 +1,7 @@
 //! `asperity extract`.
 
 use crate::cli::Extract;
-use asperity::{
-    emit::{sections::renamed, textures::Textures},
-    sources::latents::EditError,
-};
+use asperity::emit::{lower::LowerError, sections::renamed, textures::Textures};
 use asperity_console::Console;
 use asperity_formats::Asset;
 use asperity_io::{
@@ -27,7 +24,7 @@ pub(crate) fn run(args: &Extract, console: Console) -> Result<(), Failures> {
     let extracted = if name == asset.name() {
         bytes.clone()
     } else {
-        renamed(&bytes, name).map_err(|e| one(EditError::from(e)))?
+        renamed(&bytes, name).map_err(|e| one(LowerError::from(e)))?
     };
     outputs.fill(output, &extracted).map_err(one)?;
     outputs.commit().map_err(one)?;

@@ -6,7 +6,7 @@ use crate::{
     console::{self, Bar},
     setup,
 };
-use asperity::learned::{inference::Backend, text::TextEncoder};
+use asperity::learned::{inference::{Backend, not_installed}, text::TextEncoder};
 use asperity_corpus::{
     Corpus, hatt,
     reference::{self, LexiconEntry, ReferenceOptions},
@@ -82,7 +82,7 @@ fn fit(args: &cli::Fit) -> Result<(), Failure> {
         _ => {}
     }
     console::listen().map_err(boxed)?;
-    let backend = Backend::open(args.backend).map_err(boxed)?;
+    let backend = Backend::open(args.backend).map_err(|error| boxed(not_installed(error)))?;
     let encoder = setup::text_encoder(&args.text_encoder, &backend)?;
     let threads = setup::threads(args.threads);
     let mut bar = Bar::new(args.quiet, config.optimiser.epochs);

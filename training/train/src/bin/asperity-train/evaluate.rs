@@ -5,7 +5,7 @@ use crate::{
     console::{self, is_interrupted},
     setup,
 };
-use asperity::learned::{inference::{Backend, BackendName}, text::TextEncoderChoice};
+use asperity::learned::{inference::{Backend, BackendName, not_installed}, text::TextEncoderChoice};
 use asperity_train::{
     Config,
     evaluate::{CorpusSource, Options, Part, Watch, evaluate},
@@ -76,7 +76,7 @@ pub(crate) fn run(args: &Evaluate) -> Result<(), Failure> {
         report: &args.output,
     };
     console::listen().map_err(boxed)?;
-    let backend = Backend::open(args.backend).map_err(boxed)?;
+    let backend = Backend::open(args.backend).map_err(|error| boxed(not_installed(error)))?;
     let encoder = setup::text_encoder(&args.text_encoder, &backend)?;
     let threads = setup::threads(args.threads);
     let mut bar = Bar::new(args.quiet);
