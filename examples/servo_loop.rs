@@ -53,7 +53,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         output
     };
     let (device, grip) = (DeviceConfig::touch()?, Grip::preset(GripPreset::Light)?);
-    let servo = FaultInjector::new(servo, FaultPlan::default(), 1)?;
+    let servo = FaultInjector::new(servo, FaultPlan::default(), 1);
     let mut session = Session::new(&device, grip, scrub(), servo);
 
     let missed = thread::scope(|scope| {

@@ -3,18 +3,15 @@
 #![forbid(unsafe_code)]
 
 pub mod callgrind;
-pub mod evict;
 pub mod load;
 pub mod motion;
 pub mod queries;
 pub mod reference;
 pub mod texture;
-pub mod trace;
 
 use asperity_formats::Asset;
 use asperity_runtime::{Config, Flags, HostTexture, Output, Renderer, Sample, State};
 use motion::Motion;
-use std::ops::Range;
 
 /// A renderer, a loaded texture and a state, ready to tick.
 pub struct Rig {
@@ -63,27 +60,11 @@ impl Rig {
         self.texture.cycle_samples()
     }
 
-    /// Addresses of state, slot and renderer.
-    #[must_use]
-    pub fn places(&self) -> [Range<u64>; 3] {
-        [
-            place(&self.state),
-            place(&*self.texture),
-            place(&self.renderer),
-        ]
-    }
-
     /// Renders a tick.
     #[inline(never)]
     pub fn tick(&mut self, sample: &Sample) -> Output {
         self.renderer.tick(&self.texture, &mut self.state, sample)
     }
-}
-
-/// The addresses of a value.
-fn place<T>(value: &T) -> Range<u64> {
-    let start = (&raw const *value).addr() as u64;
-    start..start + size_of::<T>() as u64
 }
 
 /// Checks that a stroke sounds and that every force is finite and within 3.3 N, so that what is

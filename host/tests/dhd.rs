@@ -21,7 +21,6 @@ fn a_session_begins_and_ends_in_order_and_speaks_the_world_frame() {
         "x right, y away, z up"
     );
     assert!(reading.fresh && reading.buttons == 5);
-    assert_eq!(device.velocity_m_s(), [0.2, -0.1, 0.3]);
     device.write([1.0, 2.0, 3.0]).expect("write");
     assert_eq!(fake.force_n(), [-2.0, 1.0, 3.0]);
     drop(device);
@@ -70,7 +69,6 @@ fn results_that_are_neither_good_nor_bad_are_understood() {
     device
         .write([1.0, 0.0, 0.0])
         .expect("a shortened force is a success");
-    assert_eq!(device.saturated(), 1);
 }
 
 #[test]

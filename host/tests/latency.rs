@@ -59,7 +59,6 @@ fn conditions() -> Conditions {
         refused: Vec::new(),
         device: "null:".into(),
         texture: "built in".into(),
-        load: "none".into(),
         injected: None,
         version: "0".into(),
     }

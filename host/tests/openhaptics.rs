@@ -66,7 +66,6 @@ fn a_session_begins_and_ends_in_order_and_speaks_the_world_frame() {
         read.is_ok_and(|reading| reading.fresh && reading.position_m != first.position_m)
     })
     .expect("it moves");
-    assert!(device.velocity_m_s()[0] > 0.0, "pushed to the right");
     drop(device);
 
     assert_eq!(

@@ -2,9 +2,9 @@
 //! and homed, and the force comes back by a ramp.
 
 use crate::support::{Act, Kept, Scripted, length, texture};
-use asperity_host::device::fault_injection::{Faulty, InjectedFault, Plan};
+use asperity_host::device::fault_injection::{Faulty, InjectedFault};
 use asperity_host::device::{Description, Device, DeviceError, Reading};
-use asperity_host::fault_plan::FaultKind as _;
+use asperity_host::fault_plan::FaultPlan;
 use asperity_host::servo::{Event, Report, ServoLoop, Settings, SingleTexture, Virtual};
 use asperity_runtime::{Config, Flags, Renderer, State};
 use std::sync::atomic::AtomicBool;
@@ -27,9 +27,13 @@ struct OnDesk<D> {
 }
 
 impl<D: Device> OnDesk<D> {
-    fn new(device: D, plan: Plan, starts: Option<(u64, InjectedFault, u32)>) -> Self {
+    fn new(
+        device: D,
+        plan: FaultPlan<InjectedFault>,
+        starts: Option<(u64, InjectedFault, u32)>,
+    ) -> Self {
         Self {
-            faulty: Faulty::new(device, plan, 5).expect("a plan"),
+            faulty: Faulty::new(device, plan, 5),
             starts,
             readings: 0,
             homing_left: 0,
@@ -89,14 +93,18 @@ struct Session {
     recoveries: u32,
 }
 
-fn session(periods: u64, plan: Plan, starts: Option<(u64, InjectedFault, u32)>) -> Session {
+fn session(
+    periods: u64,
+    plan: FaultPlan<InjectedFault>,
+    starts: Option<(u64, InjectedFault, u32)>,
+) -> Session {
     session_with(&Config::default(), periods, plan, starts)
 }
 
 fn session_with(
     config: &Config,
     periods: u64,
-    plan: Plan,
+    plan: FaultPlan<InjectedFault>,
     starts: Option<(u64, InjectedFault, u32)>,
 ) -> Session {
     let clock = Virtual::new();
@@ -144,7 +152,7 @@ fn a_device_that_is_unplugged_in_mid_stroke_and_back_recovers_by_itself() {
     const AWAY: u32 = 700;
     let run = session(
         4000,
-        Plan::default(),
+        FaultPlan::default(),
         Some((OUT, InjectedFault::Unplugged, AWAY)),
     );
     assert!(
@@ -209,7 +217,7 @@ fn a_device_that_is_unplugged_in_mid_stroke_and_back_recovers_by_itself() {
 fn no_fault_of_any_kind_makes_a_force_beyond_the_limits() {
     let starts = |kind| Some((300, kind, 40));
     for kind in InjectedFault::ALL {
-        let run = session(1500, Plan::default(), starts(kind));
+        let run = session(1500, FaultPlan::default(), starts(kind));
         assert!(largest_step(&run.commanded) <= SLEW_N, "{kind:?}");
         let peak = run.commanded.iter().map(|force| length(*force));
         let peak = peak.max_by(f32::total_cmp).unwrap_or(f32::NAN);
@@ -218,7 +226,7 @@ fn no_fault_of_any_kind_makes_a_force_beyond_the_limits() {
         assert!(length(run.commanded[1400]) > 0.5, "{kind:?}: it goes on");
     }
     // All of them at once, one period in a hundred.
-    let run = session(60_000, Plan::all(0.01, 60), None);
+    let run = session(60_000, FaultPlan::all(&InjectedFault::ALL, 0.01, 60), None);
     assert!(run.report.episodes > 100, "{}", run.report.episodes);
     assert!(largest_step(&run.commanded) <= SLEW_N);
     assert!(run.report.ended_without_force);
@@ -231,7 +239,7 @@ fn what_a_device_holds_is_left_at_the_slew_limit() {
     let mut config = Config::default();
     config.limits.slew_n_s = 100.0;
     let starts = Some((300, InjectedFault::WriteFailed, 40));
-    let run = session_with(&config, 1500, Plan::default(), starts);
+    let run = session_with(&config, 1500, FaultPlan::default(), starts);
     assert_eq!(run.report.write_faults, 40);
     assert!(run.report.eased > 0, "one force at least");
     let most = 0.1 * (1.0 + 1e-5);
@@ -243,7 +251,7 @@ fn what_a_device_holds_is_left_at_the_slew_limit() {
 #[test]
 fn positions_that_no_hand_can_have_are_faults_and_are_recorded_as_such() {
     for kind in [InjectedFault::OutOfRange, InjectedFault::NotFinite] {
-        let run = session(1500, Plan::default(), Some((300, kind, 10)));
+        let run = session(1500, FaultPlan::default(), Some((300, kind, 10)));
         let records = &run.kept.records[300..310];
         assert!(
             records

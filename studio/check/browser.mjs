@@ -212,6 +212,8 @@ async function devices(browser) {
   const visit = await Visit.begin(browser, address, (context) => context.grantPermissions(["microphone"]));
   const { page } = visit;
   const names = () => page.$$eval("#device option", (all) => all.map(({ textContent }) => textContent));
+  // Until the devices are listed, nobody knows whether they have to be found.
+  await page.waitForFunction(() => document.querySelector("#device option"));
   if (await page.isVisible("#find-devices")) await page.click("#find-devices");
   await page.waitForFunction(() => document.querySelectorAll("#device option").length > 1);
   assert((await names())[0] === "System default", `sound devices are listed: ${(await names()).join(", ")}`);
@@ -235,7 +237,7 @@ async function failures(browser) {
   const visit = await Visit.begin(browser, address);
   const { page } = visit;
   await visit.compile("cork");
-  await visit.penStroke({ pressure: () => 0.5, seconds: 0.8, px_s: 300 });
+  await visit.penStroke({ pressure: () => 0.5, seconds: 1.6, px_s: 300 });
   assert((await page.textContent("#notices")).includes("no changing pressure"), "a pen that always says 0.5 is found out");
   const forces = (await visit.take()).filter(({ depth_mm, speed_mm_s }) => depth_mm > 0 && speed_mm_s > 40);
   const force_n = forces.reduce((sum, tick) => sum + tick.normal_force_n, 0) / forces.length;

@@ -1,52 +1,13 @@
 // What the live plots compute by themselves, against plainer ways to the same numbers.
-import { contour } from "../page/plots/contour.js";
 import { Fft } from "../page/plots/fft.js";
+import { contour } from "../page/plots/field.js";
 import { coefficients } from "../page/plots/friction.js";
-import { cosines, squaredMagnitudes } from "../page/plots/lsf.js";
-import { Playhead } from "../page/plots/playhead.js";
 import { BLOCK, COLUMN, Ring, WIDTH } from "../page/plots/ring.js";
 import { roundSteps, roundUp, Span } from "../page/plots/scale.js";
-import { shortest } from "../page/plots/shortest.js";
+import { Playhead } from "../page/plots/scope.js";
 import { fail, near, numbers, same } from "./expect.mjs";
 
 const TICK_HZ = 16000;
-
-/** The power response by way of coefficients, which `lsf.js` does without. */
-function byCoefficients(lsf_rad, omega) {
-  const times = (a, b) =>
-    a.reduce((sum, x, i) => (b.forEach((y, j) => (sum[i + j] = (sum[i + j] ?? 0) + x * y)), sum), []);
-  const section = (w) => [1, -2 * Math.cos(w), 1];
-  const even = lsf_rad.length % 2 === 0;
-  const q = lsf_rad
-    .filter((_, k) => k % 2 === 0)
-    .map(section)
-    .reduce(times, even ? [1, 1] : [1]);
-  const p = lsf_rad
-    .filter((_, k) => k % 2 === 1)
-    .map(section)
-    .reduce(times, even ? [1, -1] : [1, 0, -1]);
-  const a = q.map((x, k) => 0.5 * (x + p[k]));
-  const part = (f) => a.reduce((sum, x, k) => sum + x * f(omega * k), 0);
-  near("monic", a[0], 1, 1e-12);
-  return part(Math.cos) ** 2 + part(Math.sin) ** 2;
-}
-
-export function checkLsf() {
-  const random = numbers(1);
-  let worst = 0;
-  for (const order of [1, 2, 3, 4, 7, 10]) {
-    const lsf_rad = Array.from({ length: order }, (_, k) => ((k + 0.3 + 0.6 * random()) / (order + 1)) * Math.PI);
-    for (let n = 0; n < 50; n++) {
-      const omega = random() * Math.PI;
-      const wanted = byCoefficients(lsf_rad, omega);
-      worst = Math.max(
-        worst,
-        near(`|A|² of order ${order}`, squaredMagnitudes(cosines(lsf_rad), [Math.cos(omega)])[0] / wanted, 1, 1e-9),
-      );
-    }
-  }
-  return `|A|² of orders 1 to 10 within ${worst.toExponential(0)} of its coefficients`;
-}
 
 export function checkFft() {
   const random = numbers(2);
@@ -138,43 +99,6 @@ export function checkScales() {
   }
   same("μ of a law", coefficients({ mu: 2, law: { points: [{ factor: 0.5 }, { factor: 1.5 }] } }).join(), "1,3");
   return "scales and contours";
-}
-
-export function checkShortest() {
-  const random = numbers(3);
-  const float = new Float32Array(1);
-  const whole = new Uint32Array(float.buffer);
-  const expect = (x) => {
-    const text = shortest(x);
-    same(`bits of ${x} as ${text}`, Math.fround(Number(text)), x);
-    if (!/^-?\d+(\.\d*[1-9])?$/.test(text)) fail(`${x} is printed as ${text}`);
-    const digits = text.replace(/^-|\./g, "").replace(/^0+|0+$/g, "").length;
-    for (let fewer = digits - 1; fewer > 0; fewer--) {
-      if (Math.fround(Number(x.toPrecision(fewer))) === x) fail(`${x} has ${fewer} digits, not ${digits}`);
-    }
-  };
-  for (const x of [
-    0,
-    -0,
-    1,
-    -1,
-    0.1,
-    1.5,
-    16777216,
-    152064336,
-    1e-7,
-    3.4028234663852886e38,
-    1.401298464324817e-45,
-    0.25,
-    2 ** -10,
-  ])
-    expect(Math.fround(x));
-  for (let n = 0; n < 200000; n++) {
-    if (n % 2) float[0] = (random() - 0.5) * 10 ** (8 * random() - 4);
-    else whole[0] = random() * 2 ** 32;
-    if (Number.isFinite(float[0])) expect(float[0]);
-  }
-  return "floats as the shortest text of their bits";
 }
 
 /** A ring that wraps, messages of odd lengths, gaps and sessions, against plain arrays. */

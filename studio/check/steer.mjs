@@ -3,6 +3,7 @@
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
+import { Events } from "../page/events.js";
 import { Session } from "../page/steer/session.js";
 import { compare } from "./compare.mjs";
 import { clean } from "./aid.mjs";
@@ -66,8 +67,8 @@ async function sliders(visit, tools) {
 
 /** The list of textures by itself: how many it keeps, and which one a step leads to. */
 function session({ assert }) {
-  const loader = { onshown: [], onrefused: [], take: (make, how) => loader.show(how.entry.texture, how),
-    show: (texture, how) => loader.onshown.forEach((hear) => hear(texture, how)) };
+  const loader = Object.assign(new Events(), { take: (make, how) => loader.show(how.entry.texture, how),
+    show: (texture, how) => loader.emit("shown", { texture, how }) });
   const kept = new Session(loader);
   const texture = (n) => ({ id: `${n}` });
   for (let n = 0; n < 260; n++) loader.show(texture(n), { kind: "prompt" });

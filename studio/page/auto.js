@@ -1,5 +1,6 @@
 // A hand that moves by itself, for those who only listen. The renderer moves it (`path.js`); this starts, changes and draws it.
 
+import { Events } from "./events.js";
 import { now_s } from "./hand.js";
 import { PATHS, phaseAfter, placeOf, touches } from "./path.js";
 
@@ -10,11 +11,10 @@ const FRAME_S = 0.016;
 const REACH = 0.3;
 const REACH_MM = [4, 60];
 
-export class Auto {
+/** Emits "end" when it stops, also because somebody else took the hand. */
+export class Auto extends Events {
   name = PATHS[0];
   speed_mm_s = 100;
-  /** Called when it stops, also because somebody else took the hand. */
-  onend = () => {};
   #hand;
   #force;
   #surface;
@@ -25,19 +25,20 @@ export class Auto {
   #t_s;
 
   constructor({ surface, hand, force, sound }) {
+    super();
     this.#surface = surface;
     this.#hand = hand;
     this.#force = force;
     this.#sound = sound;
-    sound.onpath = (phase) => {
-      if (!this.on) return;
+    sound.on("path", (phase) => {
+      if (!this.running) return;
       if (phase === null) return this.stop();
       this.#path.phase = phase;
       this.#t_s = now_s();
-    };
+    });
   }
 
-  get on() {
+  get running() {
     return this.#timer !== null;
   }
 
@@ -55,18 +56,18 @@ export class Auto {
   }
 
   stop() {
-    if (!this.on) return;
+    if (!this.running) return;
     clearInterval(this.#timer);
     this.#timer = null;
     this.#sound.follow(null);
     this.#hand.show(OWNER, null);
     this.outline();
-    this.onend();
+    this.emit("end");
   }
 
   /** Shows the path, or that there is none. */
   outline() {
-    if (!this.on) return this.#surface.outline(null);
+    if (!this.running) return this.#surface.outline(null);
     const { name, radius_mm: r, centre_mm } = this.#path;
     const half_mm = { circle: [r, r], line: [r, 0], tap: [0, 0] }[name];
     this.#surface.outline({ centre_mm, half_mm });

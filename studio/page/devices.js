@@ -1,7 +1,6 @@
 // The choice of the sound device, where the browser offers one.
 
-import { element, find } from "./dom.js";
-import { notify, withdraw } from "./notices.js";
+import { element, find, notify, withdraw } from "./dom.js";
 import { texts } from "./texts.js";
 
 const select = find("device");

@@ -1,4 +1,4 @@
-// Building the document. Everything that comes from outside becomes text, never markup.
+// Building the document, and what it says. Everything that comes from outside becomes text, never markup.
 
 import { texts } from "./texts.js";
 
@@ -45,4 +45,51 @@ export function remember(name, value) {
   } catch {
     // Private windows and full disks: the page works without.
   }
+}
+
+/** Runs what a button does, which is busy meanwhile and does it once; it is not disabled, which would take the focus away. */
+export async function busily(button, run) {
+  if (button.getAttribute("aria-busy") === "true") return;
+  button.setAttribute("aria-busy", "true");
+  try {
+    await run();
+  } finally {
+    button.removeAttribute("aria-busy");
+  }
+}
+
+/** A file for the person: a Blob under a name, without leaving the page. */
+export function save(name, blob) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  // Some browsers read it later than the click.
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+}
+
+/** Shows a refusal with its help, or none. */
+export function showRefusal(panel, refusal) {
+  if (!refusal) return panel.replaceChildren();
+  const { message, help } = refusal;
+  panel.replaceChildren(element("p", {}, element("strong", {}, message)), ...(help ? [element("p", {}, help)] : []));
+}
+
+// What went wrong outside the prompt, each with its remedy. A key shows once.
+const shown = new Map();
+
+/** `action`: a button, { label, run }. */
+export function notify(key, { text, help, action }) {
+  withdraw(key);
+  const notice = element("div", { class: "notice", "data-key": key },
+    element("p", {}, element("strong", {}, text), ...(help ? [" ", help] : [])));
+  if (action) notice.append(element("button", { type: "button", onclick: action.run }, action.label));
+  notice.append(element("button", { type: "button", class: "quiet", onclick: () => withdraw(key) }, texts.notices.dismiss));
+  shown.set(key, notice);
+  find("notices").append(notice);
+}
+
+export function withdraw(key) {
+  shown.get(key)?.remove();
+  shown.delete(key);
 }

@@ -1,11 +1,10 @@
 // The hand and its panel: force, the hand that moves by itself, and the readout.
 
 import { Auto } from "./auto.js";
-import { element, find, recall, remember } from "./dom.js";
+import { element, find, notify, recall, remember } from "./dom.js";
 import { Force } from "./force.js";
 import { Hand, now_s } from "./hand.js";
 import { followKeys } from "./keys.js";
-import { notify } from "./notices.js";
 import { PATHS } from "./path.js";
 import { followPointer } from "./pointer.js";
 import { meansOf, Readout } from "./readout.js";
@@ -43,7 +42,7 @@ function choosePath(auto) {
   const choose = ({ target: { value } }) => {
     auto.name = value;
     remember("path", value);
-    if (auto.on) auto.start();
+    if (auto.running) auto.start();
   };
   find("auto-path").replaceChildren(...PATHS.map((path) => element("label", {},
     element("input", { type: "radio", name: "path", value: path, checked: path === auto.name, onchange: choose }),
@@ -64,23 +63,23 @@ export function startHandPanel({ surface, sound, state }) {
   const begun = () => !sound.stopped && sound.start();
   const button = find("auto");
   const showAuto = () => {
-    button.setAttribute("aria-pressed", String(auto.on));
-    button.textContent = auto.on ? texts.hand.stop : texts.hand.start;
-    if (!auto.on) surface.light();
+    button.setAttribute("aria-pressed", String(auto.running));
+    button.textContent = auto.running ? texts.hand.stop : texts.hand.start;
+    if (!auto.running) surface.light();
   };
   button.addEventListener("click", () => {
-    if (auto.on) auto.stop();
+    if (auto.running) auto.stop();
     else {
       begun();
       auto.start();
     }
     showAuto();
   });
-  auto.onend = showAuto;
-  surface.onzoom = () => {
+  auto.on("end", showAuto);
+  surface.on("zoom", () => {
     auto.outline();
     if (hand.last) surface.touch(hand.last);
-  };
+  });
   showAuto();
 
   const parts = { surface, hand, force, begun };
@@ -88,14 +87,14 @@ export function startHandPanel({ surface, sound, state }) {
   followKeys({ ...parts, speed_mm_s: () => auto.speed_mm_s });
 
   const source = find("force-source");
-  hand.onmove = (last) => {
-    surface.touch(reduced.matches && hand.owner === "auto" ? null : last);
+  hand.on("move", () => {
+    surface.touch(reduced.matches && hand.owner === "auto" ? null : hand.last);
     const kind = ["pen", "touch", "mouse"].find((pointerType) => force.proved(pointerType));
     source.textContent = kind ? texts.hand.from_pressure(force.full_n) : texts.hand.from_slider;
-  };
+  });
   source.textContent = texts.hand.from_slider;
 
-  sound.onticks.push((ticks) => readout.show(meansOf(ticks)));
+  sound.on("ticks", (ticks) => readout.show(meansOf(ticks)));
   setInterval(() => {
     if (sound.state === "on" && state.get("texture")) return;
     readout.show(hand.last && { speed: hand.speed_mm_s(now_s()), force: hand.last.force_n });

@@ -1,6 +1,8 @@
 // The hand, whoever moves it. Samples of pointer and keys become the events of the worklet: time, position, depth by force
 // and stiffness, and the number of the stroke. The hand that moves by itself is shown only: the worklet moves it.
 
+import { Events } from "./events.js";
+
 /** How high the hand is lifted, mm. A tap falls from there within 25 ms, at 0.1 m/s and up. */
 export const LIFT_MM = 3;
 /** Stiffness until the renderer says that of its texture, N/m. */
@@ -8,7 +10,8 @@ const USUAL_N_M = 500;
 /** Window of the speed, s. */
 const SPEED_S = 0.08;
 
-export class Hand {
+/** Emits "move" after every change. */
+export class Hand extends Events {
   stiffness_n_m = USUAL_N_M;
   #stroke = 0;
   #owner = null;
@@ -17,6 +20,7 @@ export class Hand {
 
   /** `post` takes a Float64Array of five numbers an event. */
   constructor(post) {
+    super();
     this.#post = post;
   }
 
@@ -28,9 +32,6 @@ export class Hand {
   get owner() {
     return this.#owner;
   }
-
-  /** Called after every change, with `last`. */
-  onmove = () => {};
 
   /** Puts the hand down at a sample; another owner loses it. */
   press(owner, sample) {
@@ -56,7 +57,7 @@ export class Hand {
     this.#recent.push(...samples);
     const from_s = this.last.t_s - SPEED_S;
     this.#recent = this.#recent.filter(({ t_s }, n) => t_s >= from_s || n === this.#recent.length - 1);
-    this.onmove(this.last);
+    this.emit("move");
   }
 
   /** Shows where a hand is that the renderer itself moves: takes it where nobody has it; `null` lifts it. */
@@ -66,7 +67,7 @@ export class Hand {
     this.#owner = sample && owner;
     if (!sample || !touched) this.#recent = [];
     if (sample) this.#keep([sample]);
-    else if (touched) this.onmove(null);
+    else if (touched) this.emit("move");
   }
 
   lift(owner, t_s) {
@@ -75,7 +76,7 @@ export class Hand {
     this.#owner = null;
     this.#recent = [];
     this.#post(Float64Array.of(t_s, x_mm, y_mm, LIFT_MM, this.#stroke));
-    this.onmove(null);
+    this.emit("move");
   }
 
   /** Speed over the last samples at a time, mm/s. */

@@ -1,4 +1,4 @@
-// The preview under a lamp, by its normal map, in WebGL 2: tiled without end.
+// The preview, tiled without end: under a lamp, by its normal map, in WebGL 2, or plain.
 
 const VERTEX = `#version 300 es
 void main() {
@@ -92,5 +92,34 @@ export class Lit {
     gl.uniform1f(this.#at.reach_mm, 0.75 * shown_mm);
     gl.uniform3f(this.#at.lamp_mm, ...view.toMm(lamp_px), 0.4 * shown_mm);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
+  }
+}
+
+/** The preview as a plain tiled picture, for browsers without WebGL 2. */
+export class Plain {
+  #context;
+  #picture = null;
+  #width_mm = 1;
+
+  constructor(canvas) {
+    this.#context = canvas.getContext("2d", { alpha: false });
+  }
+
+  setPicture(picture, _normals, width_mm) {
+    this.#picture = picture;
+    this.#width_mm = width_mm;
+  }
+
+  draw(view) {
+    const context = this.#context;
+    const { width, height } = context.canvas;
+    if (!this.#picture) return;
+    const pixels = width / view.width_px;
+    const [left, top] = view.toPx([0, 0]).map((px) => px * pixels);
+    const scale = (this.#width_mm * view.px_mm * pixels) / this.#picture.width;
+    const pattern = context.createPattern(this.#picture, "repeat");
+    pattern.setTransform(new DOMMatrix([scale, 0, 0, scale, left, top]));
+    context.fillStyle = pattern;
+    context.fillRect(0, 0, width, height);
   }
 }

@@ -1,24 +1,23 @@
 // What a person asks of the server, and its textures to surface and sound; the latest request wins. While the server does
 // not answer, that is said and tried again.
 
-import { notify, withdraw } from "./notices.js";
+import { notify, withdraw } from "./dom.js";
+import { Events } from "./events.js";
 import { Refusal, Silence } from "./server.js";
 import { texts } from "./texts.js";
 
 const RETRY_MS = 3000;
 
-export class Loader {
+/** Emits "shown" and "refused", with { texture, how } and { refusal, how }; `how` is what `take` was given. */
+export class Loader extends Events {
   #parts;
   #abort = new AbortController();
   #timer = null;
 
   constructor(parts) {
+    super();
     this.#parts = parts;
   }
-
-  /** Called when a texture was shown, and when one was refused; `how` is what `take` was given. */
-  onshown = [];
-  onrefused = [];
 
   /** Asks what the server has. */
   begin() {
@@ -45,7 +44,7 @@ export class Loader {
       state.set({ busy: how });
       const texture = await make(signal);
       await this.#show(texture, signal);
-      for (const hear of this.onshown) hear(texture, how);
+      this.emit("shown", { texture, how });
       state.set({ busy: false });
     }, how);
   }
@@ -72,9 +71,10 @@ export class Loader {
   /** Sound first: the picture may have to be drawn. */
   async #show(texture, signal) {
     const { server, state, surface, sound } = this.#parts;
-    sound.play(await server.asset(texture, signal));
-    state.set({ texture });
-    Promise.all([server.picture(texture, signal), server.normals(texture, signal)])
+    const asset = await server.asset(texture, signal);
+    sound.play(asset);
+    state.set({ texture, asset });
+    Promise.all(["png", "normal.png"].map((ending) => server.download(texture, ending, signal)))
       .then(([picture, normals]) => !signal.aborted && surface.show(picture, normals, texture.preview.width_mm))
       .then(() => withdraw("picture"))
       .catch(({ name, help, message }) => {
@@ -95,7 +95,7 @@ export class Loader {
       this.#parts.state.set({ busy: false });
       withdraw("server");
       if (!(error instanceof Refusal)) throw error;
-      for (const hear of this.onrefused) hear(error, how);
+      this.emit("refused", { refusal: error, how });
     }
   }
 

@@ -1,6 +1,6 @@
 // The field: typing, suggestions, history, and what the server said against the prompt.
 
-import { element, find } from "./dom.js";
+import { element, find, showRefusal } from "./dom.js";
 import { History } from "./history.js";
 import { Suggestions } from "./suggest.js";
 import { texts } from "./texts.js";
@@ -20,7 +20,7 @@ export class Prompt {
       this.#input.value = text;
       this.#suggestions.close();
       if (text) compile(text);
-      else this.refuse(texts.prompt.empty);
+      else this.refuse({ message: texts.prompt.empty });
     };
     this.#history = new History(this.compile);
     find("prompt-form").addEventListener("submit", (event) => {
@@ -62,10 +62,9 @@ export class Prompt {
   }
 
   /** Shows an error with its help, or none. */
-  refuse(text, help) {
-    this.#input.setAttribute("aria-invalid", String(text !== null));
-    const parts = text === null ? [] : [element("p", {}, element("strong", {}, text)), ...(help ? [element("p", {}, help)] : [])];
-    this.#error.replaceChildren(...parts);
+  refuse(refusal) {
+    this.#input.setAttribute("aria-invalid", String(refusal !== null));
+    showRefusal(this.#error, refusal);
   }
 
   #key(event) {

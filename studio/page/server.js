@@ -116,14 +116,6 @@ export class Server {
     return (await this.#answer(`api/texture/${texture.id}.worklet.asp`, { signal })).arrayBuffer();
   }
 
-  picture(texture, signal) {
-    return this.download(texture, "png", signal);
-  }
-
-  normals(texture, signal) {
-    return this.download(texture, "normal.png", signal);
-  }
-
   /** A file of the page itself. */
   async file(name) {
     return (await this.#answer(name, {})).arrayBuffer();

@@ -1,8 +1,7 @@
 // The panel of the sound: switch, level, meter, device, and what went wrong.
 
 import { startDevices } from "./devices.js";
-import { find } from "./dom.js";
-import { notify, withdraw } from "./notices.js";
+import { find, notify, withdraw } from "./dom.js";
 import { startOutput } from "./output/panel.js";
 import { Meter } from "./readout.js";
 import { texts } from "./texts.js";
@@ -22,19 +21,19 @@ function showState(sound, meter) {
 
 export function startSoundPanel({ sound, hand }) {
   const meter = new Meter(() => sound.measure());
-  sound.onstate.push(() => showState(sound, meter));
-  sound.onlimit = () => meter.limits();
+  sound.on("state", () => showState(sound, meter));
+  sound.on("limit", () => meter.limits());
   // The renderer's wall may be softer than the asset's.
-  sound.onloaded = ({ stiffness_n_m }) => {
+  sound.on("loaded", ({ stiffness_n_m }) => {
     hand.stiffness_n_m = stiffness_n_m;
     withdraw("renderer");
-  };
-  sound.onrefused = ({ name }) => notify("renderer", { text: texts.sound.refused(name), help: texts.sound.refused_help });
-  sound.onfailure = ({ kind, detail }) => {
+  });
+  sound.on("refused", ({ name }) => notify("renderer", { text: texts.sound.refused(name), help: texts.sound.refused_help }));
+  sound.on("failure", ({ kind, detail }) => {
     const text = texts.sound[kind];
     notify("sound", { text: typeof text === "function" ? text(detail) : text, help: texts.sound[`${kind}_help`],
       action: { label: texts.sound.restart, run: () => sound.start() } });
-  };
+  });
   showState(sound, meter);
 
   find("sound-switch").addEventListener("click", () => {

@@ -1,5 +1,6 @@
 // From the hand to the loudspeaker: the sound's state, its texture, its level, its device. `output/chain.js` has the nodes.
 
+import { Events } from "./events.js";
 import { now_s } from "./hand.js";
 import { buildChain, FADE_S } from "./output/chain.js";
 import { MODES } from "./output/modes.js";
@@ -20,7 +21,12 @@ export class SoundFailure extends Error {
   }
 }
 
-export class Sound {
+/**
+ * Emits "state"; "failure" with a `SoundFailure`; "loaded" and "refused" with the renderer's status of a texture; its "ticks";
+ * "limit" with what the limiter takes off, dB; "path" with the phase of the hand that moves by itself, or null when another
+ * took its place.
+ */
+export class Sound extends Events {
   /** "off", "starting", "on" or "suspended". */
   state = "off";
   /** What the sound is for, of `MODES`, and the level, dB of full scale. */
@@ -44,18 +50,9 @@ export class Sound {
 
   /** `file` gives the bytes of a file of the page. */
   constructor(file) {
+    super();
     this.#file = file;
   }
-
-  // What others hear of. `onloaded` has the renderer's status of a texture that plays now; `onpath` the phase of the hand
-  // that moves by itself, or null when another took its place.
-  onstate = [];
-  onfailure = () => {};
-  onloaded = () => {};
-  onrefused = () => {};
-  onticks = [];
-  onlimit = () => {};
-  onpath = () => {};
 
   /** From the hand to the sound as far as the browser knows, s. */
   get total_latency_s() {
@@ -107,7 +104,7 @@ export class Sound {
     if (!chain || this.mode !== mode || chain !== this.chain) return;
     chain.mode = mode;
     if (this.state === "on") this.#turn(1);
-    this.#tell();
+    this.emit("state", this.state);
   }
 
   set trim(trim_db) {
@@ -177,7 +174,7 @@ export class Sound {
     if (this.#gains_db) chain.equaliser.gains_db = this.#gains_db;
     const { renderer, limiter } = chain;
     renderer.port.onmessage = ({ data }) => this.#heard(data);
-    limiter.port.onmessage = ({ data }) => this.onlimit(data.reduction_db);
+    limiter.port.onmessage = ({ data }) => this.emit("limit", data.reduction_db);
     for (const node of chain.worklets) node.onprocessorerror = () => this.#fail(new SoundFailure("failed", "processor"));
     context.onstatechange = () => this.#changed(context);
     this.#post({ type: "record", on: true });
@@ -189,7 +186,7 @@ export class Sound {
     if (!this.chain) return;
     this.chain.route();
     if (this.state === "on") this.#turn(1);
-    this.#tell();
+    this.emit("state", this.state);
   }
 
   #send() {
@@ -202,16 +199,16 @@ export class Sound {
   }
 
   #heard(message) {
-    if (message.type === "ticks") return this.onticks.forEach((hear) => hear(message));
-    if (message.type === "path") return this.onpath(message.phase);
+    if (message.type === "ticks") return this.emit("ticks", message);
+    if (message.type === "path") return this.emit("path", message.phase);
     const { about, name, latency_s } = message;
     if (about === "module" && name === "ok") this.latency_s = latency_s;
     else if (about === "load" || about === "swap") {
-      if (name === "ok") this.onloaded(message);
+      if (name === "ok") this.emit("loaded", message);
       // A later texture took its place.
-      else if (name !== "replaced") this.onrefused(message);
+      else if (name !== "replaced") this.emit("refused", message);
     } else if (name !== "ok") this.#fail(new SoundFailure("failed", `${about}: ${name}`));
-    if (about === "module") this.#tell();
+    if (about === "module") this.emit("state", this.state);
   }
 
   #changed(context) {
@@ -238,7 +235,7 @@ export class Sound {
       context.onstatechange = null;
       context.close().catch(() => {});
     }
-    this.onfailure(failure);
+    this.emit("failure", failure);
   }
 
   /** Fades to the level, or to silence where `on` is 0 and until the mode is the one chosen. */
@@ -249,10 +246,6 @@ export class Sound {
   #enter(state) {
     if (this.state === state) return;
     this.state = state;
-    this.#tell();
-  }
-
-  #tell() {
-    for (const hear of this.onstate) hear(this.state);
+    this.emit("state", this.state);
   }
 }

@@ -1,26 +1,63 @@
 // The page's entry: builds the parts and lets them hear of each other.
 
 import { startDevicePanel } from "./device/panel.js";
-import { fillTexts, find } from "./dom.js";
-import { startFiles } from "./files/files.js";
+import { fillTexts, find, notify, recall, remember } from "./dom.js";
+import { Events } from "./events.js";
+import { In } from "./files/in.js";
+import { Out } from "./files/out.js";
 import { startGallery } from "./gallery/gallery.js";
 import { startHandPanel } from "./hand-panel.js";
 import { Loader } from "./loader.js";
-import { notify } from "./notices.js";
 import { mountPlots } from "./plots/plots.js";
 import { Server } from "./server.js";
 import { Sound } from "./sound.js";
 import { startSoundPanel } from "./sound-panel.js";
-import { State } from "./state.js";
 import { startSteering } from "./steer/steer.js";
 import { Surface } from "./surface.js";
 import { texts } from "./texts.js";
 import { startTexturePanels } from "./texture-panels.js";
-import { startTheme } from "./theme.js";
+
+/** What the parts share. A part sets values; others hear of those that changed. */
+class State extends Events {
+  #values = { about: null, texture: null, busy: false, draft: false };
+
+  get(name) {
+    return this.#values[name];
+  }
+
+  set(values) {
+    const changed = Object.keys(values).filter((name) => this.#values[name] !== values[name]);
+    Object.assign(this.#values, values);
+    for (const name of changed) this.emit(name, this.#values);
+  }
+
+  /** Calls `hear` with all values now, and when one of the named ones changed. */
+  on(names, hear) {
+    for (const name of names) super.on(name, hear);
+    hear(this.#values);
+  }
+}
+
+/** Light, dark, or what the system says. Colours are `light-dark()` pairs, so that the scheme alone decides. */
+function startTheme() {
+  const choices = ["auto", "light", "dark"];
+  const button = find("theme");
+  const apply = (choice) => {
+    document.documentElement.dataset.theme = choice;
+    button.textContent = texts.theme[choice];
+    remember("theme", choice);
+  };
+  const recalled = recall("theme", "auto");
+  apply(choices.includes(recalled) ? recalled : "auto");
+  button.addEventListener("click", () => {
+    const now = choices.indexOf(document.documentElement.dataset.theme);
+    apply(choices[(now + 1) % choices.length]);
+  });
+}
 
 find("unstarted").remove();
 const server = new Server();
-const state = new State({ about: null, texture: null, busy: false, draft: false });
+const state = new State();
 const broken = () => notify("broken", { text: texts.broken, help: texts.broken_help });
 addEventListener("error", broken);
 addEventListener("unhandledrejection", broken);
@@ -35,23 +72,18 @@ const loader = new Loader({ server, state, surface, sound });
 startTexturePanels({ state, loader });
 startSteering({ server, state, loader, sound });
 const gallery = startGallery({ server, state, loader });
-startFiles({ server, state, loader, gallery });
+new Out({ server, state, loader });
+new In({ server, state, loader, gallery });
 // Static files show textures and make none.
 state.on(["about"], ({ about }) => {
   if (about) document.documentElement.dataset.served = about.opens ? "server" : "files";
 });
-let plots = mountPlots(find("plots"), texts.plots);
-const hearTicks = (ticks) => plots.addTicks(ticks);
-sound.onticks.push(hearTicks);
-state.on(["texture"], ({ texture }) => plots.setTexture(texture && texture.inspect));
-/** The plots show the device instead of the page's own hand. */
-const plotsOfDevice = (tick_hz) => {
-  sound.onticks.splice(sound.onticks.indexOf(hearTicks), 1);
-  plots.destroy();
-  plots = mountPlots(find("plots"), texts.plots, { tick_hz });
-  plots.setTexture(state.get("texture")?.inspect ?? null);
-  return plots;
-};
-startDevicePanel({ server, state, surface, plots: plotsOfDevice });
+// The plots ask the module that also renders the sound.
+const runtime = server.file("asperity.wasm").then((bytes) => WebAssembly.instantiate(bytes)).then(({ instance }) => instance.exports);
+const plots = mountPlots(find("plots"), runtime, texts.plots);
+// Beside a device they show its ticks instead of the page's own.
+sound.on("ticks", (ticks) => state.get("about")?.device || plots.addTicks(ticks));
+state.on(["texture"], ({ texture, asset }) => plots.setTexture(texture && texture.inspect, asset));
+startDevicePanel({ server, state, surface, plots });
 find("prompt").focus({ preventScroll: true });
 loader.begin();

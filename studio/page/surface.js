@@ -1,8 +1,8 @@
 // The stage: the surface under a lamp that follows the hand, its scale, and where the hand touches.
 
 import { element, find } from "./dom.js";
-import { Lit } from "./lit.js";
-import { Plain } from "./plain.js";
+import { Events } from "./events.js";
+import { Lit, Plain } from "./lit.js";
 import { texts } from "./texts.js";
 import { View } from "./view.js";
 
@@ -20,7 +20,8 @@ const REST = [0.32, 0.28];
 
 const reduced = matchMedia("(prefers-reduced-motion: reduce)");
 
-export class Surface {
+/** Emits "zoom" after every change of what the stage shows. */
+export class Surface extends Events {
   view = new View();
   stage = find("stage");
   #contact = find("contact");
@@ -37,6 +38,7 @@ export class Surface {
   #rest = null;
 
   constructor() {
+    super();
     this.#begin(true);
     new ResizeObserver(() => this.#resize()).observe(this.stage);
     matchMedia("(resolution: 1dppx)").addEventListener("change", () => this.#resize());
@@ -107,9 +109,6 @@ export class Surface {
       width: `${2 * box.half_mm[0] * this.view.px_mm}px`, height: `${2 * box.half_mm[1] * this.view.px_mm}px` });
   }
 
-  /** Called after every change of what the stage shows. */
-  onzoom = () => {};
-
   #begin(lit) {
     const canvas = element("canvas", { "aria-hidden": "true" });
     this.#layer = (lit && Lit.on(canvas)) || new Plain(canvas);
@@ -134,7 +133,7 @@ export class Surface {
     const scale = find("scale");
     scale.firstElementChild.style.width = `${bar_mm * this.view.px_mm}px`;
     scale.dataset.text = texts.surface.scale(bar_mm);
-    this.onzoom();
+    this.emit("zoom");
     this.#draw();
   }
 

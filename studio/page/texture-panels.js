@@ -1,6 +1,5 @@
-// What the page says about the texture: the prompt's reading, its neighbours, its facts.
+// What the page says about the texture: the prompt's reading, its neighbours, its facts, and its command lines.
 
-import { showCommand } from "./command.js";
 import { announce, element, find } from "./dom.js";
 import { Prompt } from "./prompt.js";
 import { certaintyText, showNearest, showReading } from "./reading.js";
@@ -17,6 +16,28 @@ function showFacts(texture) {
     ...(rerated ? [" ", element("span", { class: "badge" }, texts.surface.rerated(model_rate_hz, worklet_rate_hz))] : []));
 }
 
+/** The command lines that write the bytes of what is shown. */
+function showCommand(texture) {
+  const panel = find("command");
+  panel.hidden = !texture?.command;
+  if (panel.hidden) return panel.replaceChildren();
+  const code = element("code", { tabindex: "0", "aria-label": texts.command.label }, texture.command);
+  const copy = element("button", { type: "button", class: "quiet" }, texts.command.copy);
+  copy.addEventListener("click", async () => {
+    let said = texts.command.copied;
+    try {
+      await navigator.clipboard.writeText(texture.command);
+    } catch {
+      getSelection().selectAllChildren(code);
+      said = texts.command.selected;
+    }
+    copy.textContent = said;
+    announce(said);
+    setTimeout(() => (copy.textContent = texts.command.copy), 2000);
+  });
+  panel.replaceChildren(element("span", { class: "small" }, texts.command.label), code, copy);
+}
+
 function invite(compile) {
   find("invitation").replaceChildren(element("p", {}, texts.prompt.invitation),
     ...texts.prompt.examples.map((example) => element("button", { type: "button", onclick: () => compile(example) }, example)));
@@ -29,7 +50,7 @@ export function startTexturePanels({ state, loader }) {
 
   // Sliders and words keep to the prompt that they began with, by the names of textures.
   const prompted = new Map();
-  loader.onshown.push((texture, how) => {
+  loader.on("shown", ({ texture, how }) => {
     if (texture.compiled) prompted.set(texture.id, texture);
     else if (!prompted.has(texture.id)) prompted.set(texture.id, prompted.get((how.base ?? how.of)?.id));
     const from = prompted.get(texture.id) ?? texture;
@@ -40,7 +61,7 @@ export function startTexturePanels({ state, loader }) {
     prompt.accept(how.prompt);
     announce(texts.prompt.compiled(texture.name, texture.compiled ? certaintyText(texture.compiled) : ""));
   });
-  loader.onrefused.push(({ message, help }, how) => how?.kind === "prompt" && prompt.refuse(message, help));
+  loader.on("refused", ({ refusal, how }) => how?.kind === "prompt" && prompt.refuse(refusal));
 
   state.on(["busy"], ({ busy }) => (prompt.busy = busy?.kind === "prompt"));
   state.on(["about"], ({ about }) => {

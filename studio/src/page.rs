@@ -26,26 +26,22 @@ pub(crate) const FILES: &[File] = files! {
     "text/css; charset=utf-8": "studio.css" "device/device.css" "files/files.css" "gallery/gallery.css" "output/output.css" "plots/plots.css"
         "steer/steer.css";
     "text/javascript; charset=utf-8":
-        "auto.js" "command.js" "devices.js" "dom.js" "force.js" "hand-panel.js" "hand.js" "history.js" "keys.js"
-        "limiter.js" "lit.js" "loader.js" "notices.js" "path.js" "plain.js" "pointer.js" "prompt.js" "reading.js"
-        "readout.js" "recorder.js" "save.js" "server.js" "sound-panel.js" "sound.js" "state.js" "studio.js" "suggest.js" "surface.js"
-        "texts.js" "texture-panels.js" "theme.js" "view.js" "worklet.js"
+        "auto.js" "devices.js" "dom.js" "events.js" "force.js" "hand-panel.js" "hand.js" "history.js" "keys.js" "limiter.js"
+        "lit.js" "loader.js" "path.js" "pointer.js" "prompt.js" "reading.js" "readout.js" "server.js" "sound-panel.js"
+        "sound.js" "studio.js" "suggest.js" "surface.js" "texts.js" "texture-panels.js" "view.js" "worklet.js"
         "device/feed.js" "device/jitter.js" "device/panel.js"
-        "files/files.js" "files/in.js" "files/kinds.js" "files/out.js" "files/pack.js"
+        "files/in.js" "files/out.js" "files/pack.js"
         "gallery/attributes.js" "gallery/compare.js" "gallery/filters.js" "gallery/gallery.js" "gallery/grid.js"
-        "gallery/hand-button.js" "gallery/library.js" "gallery/scatter.js" "gallery/span.js" "gallery/thumbnails.js" "gallery/views.js"
+        "gallery/library.js" "gallery/scatter.js" "gallery/span.js" "gallery/thumbnails.js"
         "offline/module.js" "offline/offline.js" "offline/worker.js"
-        "output/chain.js" "output/equaliser-panel.js" "output/equaliser.js" "output/modes.js" "output/motors-panel.js"
-        "output/motors.js" "output/panel.js" "output/response.js" "output/shift.js" "output/tones-button.js"
-        "output/tones.js"
-        "plots/axes.js" "plots/colormap.js" "plots/contour.js" "plots/controls.js" "plots/csv-worker.js" "plots/csv.js" "plots/fft.js"
-        "plots/field.js" "plots/figure.js" "plots/force.js" "plots/friction.js" "plots/grid.js" "plots/level.js"
-        "plots/levels.js" "plots/lsf.js" "plots/palette.js" "plots/plane-pointer.js" "plots/plane.js"
-        "plots/playhead.js" "plots/plots.js" "plots/ring.js" "plots/scale.js" "plots/scope.js" "plots/shortest.js"
+        "output/chain.js" "output/equaliser-panel.js" "output/equaliser.js" "output/modes.js" "output/motors.js"
+        "output/panel.js" "output/response.js" "output/shift.js" "output/tones.js"
+        "plots/axes.js" "plots/controls.js" "plots/csv.js" "plots/fft.js" "plots/field.js"
+        "plots/figure.js" "plots/force.js" "plots/friction.js" "plots/models.js" "plots/plane-pointer.js"
+        "plots/plane.js" "plots/plots.js" "plots/ring.js" "plots/scale.js" "plots/scope.js"
         "plots/spectrum.js" "plots/stage.js" "plots/strip.js" "plots/texts.js" "plots/waveform.js"
-        "steer/again.js" "steer/axis.js" "steer/blind.js" "steer/choice.js" "steer/compare.js" "steer/feel.js"
-        "steer/held.js" "steer/live.js" "steer/mix.js" "steer/piece.js" "steer/portrait.js" "steer/refused.js"
-        "steer/session.js" "steer/shortcuts.js" "steer/slots.js" "steer/steer.js" "steer/timeline.js" "steer/words.js";
+        "steer/axis.js" "steer/choice.js" "steer/compare.js" "steer/feel.js" "steer/live.js" "steer/mix.js"
+        "steer/session.js" "steer/slots.js" "steer/steer.js" "steer/timeline.js" "steer/words.js";
     "application/wasm": "asperity.wasm";
     "image/svg+xml": "icon.svg";
 };

@@ -210,7 +210,7 @@ typedef int32_t AsperityStatus;
 typedef struct AsperityError {
   // `sizeof(AsperityError)`, from the caller.
   uint32_t struct_size;
-  // What the function returned.
+  // Return value of the function.
   AsperityStatus status;
   // UTF-8 that ends with a null; truncated where it is too long.
   char message[ASPERITY_MESSAGE_SIZE];
@@ -275,7 +275,7 @@ typedef struct AsperityConfig {
   float reach_m;
 } AsperityConfig;
 
-// What an object begins with: which kind it is, in which arithmetic, of which capacity.
+// Tag at the start of an object: its kind, arithmetic and capacity.
 typedef uint32_t Tag;
 
 // A checked configuration; it serves any number of states and textures.
@@ -358,7 +358,7 @@ typedef struct AsperityRecorder {
   Tag tag;
 } AsperityRecorder;
 
-// One tick: what went in and what came out.
+// Input and output of a tick.
 typedef struct AsperityRecord {
   // Number of the write, from 0, lost ones included: a gap shows where records were lost.
   uint64_t tick;
@@ -410,7 +410,7 @@ typedef struct AsperityTexture {
   Tag tag;
 } AsperityTexture;
 
-// How a texture couples to the hand. Set `struct_size`, or begin with `ASPERITY_COUPLING_INIT`.
+// Coupling of a texture to the hand. Set `struct_size`, or begin with `ASPERITY_COUPLING_INIT`.
 typedef struct AsperityCoupling {
   // `sizeof(AsperityCoupling)`, from the caller.
   uint32_t struct_size;
@@ -521,8 +521,8 @@ AsperityStatus asperity_preparer_load_name(struct AsperityPreparer *preparer,
                                            const char *texture_name,
                                            struct AsperityError *error);
 
-// One servo period on what a player plays: it takes the next texture, if one was sent and may
-// begin, and then does what `asperity_tick` does.
+// Renders one servo period of a player: takes the next texture, if one was sent and may begin, and
+// then does what `asperity_tick` does.
 //
 // # Safety
 // As `asperity_tick`; nobody else uses `player` during the call.
@@ -667,7 +667,7 @@ AsperityStatus asperity_scene_state_init(void *memory,
 AsperityStatus asperity_scene_state_counters(const struct AsperitySceneState *state,
                                              struct AsperityCounters *counters);
 
-// One servo period in a scene: as `asperity_tick`, on the surface that is touched instead of the
+// Renders one servo period in a scene: as `asperity_tick`, on the touched surface instead of the
 // solid of the configuration. `AsperityOutput::surface` says which one is in contact.
 //
 // # Safety
@@ -754,10 +754,9 @@ AsperityStatus asperity_texture_load_name(struct AsperityTexture *texture,
 AsperityStatus asperity_texture_coupling(const struct AsperityTexture *texture,
                                          struct AsperityCoupling *coupling);
 
-// One servo period: a device sample in, a limited force out. If the pointers are right, the
-// texture was loaded for the renderer's rate and the processor rounds to nearest, it succeeds for
-// every sample. Otherwise
-// the output, where there is one, is zero force and the safe state.
+// Renders one servo period: a device sample in, a limited force out. If the pointers are right,
+// the texture was loaded for the renderer's rate and the processor rounds to nearest, it succeeds
+// for every sample. Otherwise the output, where there is one, is zero force and the safe state.
 //
 // # Safety
 // `renderer`, `texture` and `state` are null or initialised objects; nobody writes to the

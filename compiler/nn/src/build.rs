@@ -9,10 +9,7 @@ use prost::Message as _;
 use crate::{
     Dim, ElementType, OnnxError, Port, Portable, Tensor,
     load::{constant, ports},
-    proto::{
-        AttributeProto, AttributeType, GraphProto, ModelProto, NodeProto, OperatorSetIdProto,
-        StringStringEntryProto,
-    },
+    proto::{AttributeProto, AttributeType, GraphProto, ModelProto, NodeProto, OperatorSetIdProto},
 };
 
 /// A value of a graph under construction.
@@ -44,7 +41,6 @@ pub enum Attribute {
 #[derive(Debug, Clone)]
 pub struct GraphBuilder {
     graph: GraphProto,
-    metadata: Vec<StringStringEntryProto>,
     counter: usize,
 }
 
@@ -57,17 +53,8 @@ impl GraphBuilder {
                 name: name.to_owned(),
                 ..GraphProto::default()
             },
-            metadata: Vec::new(),
             counter: 0,
         }
-    }
-
-    /// Adds a key and its value to the model's metadata.
-    pub fn metadata(&mut self, key: &str, value: &str) {
-        self.metadata.push(StringStringEntryProto {
-            key: key.to_owned(),
-            value: value.to_owned(),
-        });
     }
 
     /// Adds an input.
@@ -113,12 +100,6 @@ impl GraphBuilder {
         Value(output)
     }
 
-    /// x·Wᵀ + b for weights [out, in].
-    pub fn gemm_transposed(&mut self, x: &Value, weights: &Value, bias: &Value) -> Value {
-        let inputs = [Some(x), Some(weights), Some(bias)];
-        self.node("Gemm", &inputs, &[("transB", Attribute::Int(1))])
-    }
-
     /// x·W + b for weights [in, out].
     pub fn gemm(&mut self, x: &Value, weights: &Value, bias: &Value) -> Value {
         self.node("Gemm", &[Some(x), Some(weights), Some(bias)], &[])
@@ -144,7 +125,7 @@ impl GraphBuilder {
         self.node("Div", &[Some(a), Some(b)], &[])
     }
 
-    /// A function of one tensor without attributes: `Relu`, `Softplus`, `Tanh`, `Exp`, …
+    /// A function of one tensor without attributes: `Relu`, `Tanh`, `Exp`, …
     pub fn unary(&mut self, op_type: &str, x: &Value) -> Value {
         self.node(op_type, &[Some(x)], &[])
     }
@@ -157,13 +138,6 @@ impl GraphBuilder {
     /// Softmax along an axis.
     pub fn softmax(&mut self, x: &Value, axis: i64) -> Value {
         self.node("Softmax", &[Some(x)], &[("axis", Attribute::Int(axis))])
-    }
-
-    /// Running sum along an axis.
-    pub fn cumsum(&mut self, x: &Value, axis: i64) -> Value {
-        let name = self.fresh("axis");
-        let axis = self.constant(&name, Tensor::i64(&[], vec![axis]));
-        self.node("CumSum", &[Some(x), Some(&axis)], &[])
     }
 
     /// x clamped to low..=high.
@@ -223,7 +197,6 @@ impl GraphBuilder {
                 domain: String::new(),
                 version: Some(17),
             }],
-            metadata_props: self.metadata.clone(),
         }
     }
 

@@ -9,8 +9,8 @@
 //! * [`Portable`] loads a model and runs it; [`Session`] is the interface of every back end.
 //! * [`build`] writes models; [`proto`] is the file format.
 //! * Operator sets 13 to 22. Operators: Add Sub Mul Div Pow, Equal Less LessOrEqual Greater
-//!   GreaterOrEqual Where, Relu Sigmoid Tanh Exp Log Sqrt Erf Neg Softplus Clip, MatMul Gemm,
-//!   Softmax LayerNormalization, ReduceMean ReduceSum ReduceL2 ArgMax CumSum, Gather GatherND
+//!   GreaterOrEqual Where, Relu Sigmoid Tanh Exp Log Sqrt Erf Neg Clip, MatMul Gemm,
+//!   Softmax LayerNormalization, ReduceMean ReduceSum ReduceL2 ArgMax, Gather GatherND
 //!   Slice Concat, Transpose Reshape Squeeze Unsqueeze Identity Expand, Shape Constant
 //!   ConstantOfShape Range, Cast DequantizeLinear. Types: float32, int64, int32, int8, uint8, bool.
 //!

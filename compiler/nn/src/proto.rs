@@ -48,9 +48,6 @@ pub struct ModelProto {
     /// Operator sets that the graph relies on.
     #[prost(message, repeated, tag = "8")]
     pub opset_import: Vec<OperatorSetIdProto>,
-    /// Free key–value pairs.
-    #[prost(message, repeated, tag = "14")]
-    pub metadata_props: Vec<StringStringEntryProto>,
 }
 
 /// `OperatorSetIdProto`: one operator set.
@@ -62,17 +59,6 @@ pub struct OperatorSetIdProto {
     /// Its version.
     #[prost(int64, optional, tag = "2")]
     pub version: Option<i64>,
-}
-
-/// `StringStringEntryProto`: one key–value pair.
-#[derive(Clone, PartialEq, prost::Message)]
-pub struct StringStringEntryProto {
-    /// Key.
-    #[prost(string, tag = "1")]
-    pub key: String,
-    /// Value.
-    #[prost(string, tag = "2")]
-    pub value: String,
 }
 
 /// `GraphProto`: nodes in topological order, constants, ports.

@@ -193,12 +193,6 @@ impl Tensor {
         f32::elements(self)
     }
 
-    /// The elements of an i64 tensor.
-    #[must_use]
-    pub fn as_i64(&self) -> Option<&[i64]> {
-        i64::elements(self)
-    }
-
     /// Returns true if the number of elements is the product of the shape.
     #[must_use]
     pub fn is_consistent(&self) -> bool {

@@ -53,35 +53,20 @@ pub(crate) fn beside_executable() -> Vec<PathBuf> {
     vec![folder.to_owned(), folder.join("lib"), folder.join("../lib")]
 }
 
-/// The `onnxruntime/capi` folders of Python installations: that of `python3`, then those in usual
-/// places.
+/// The `onnxruntime/capi` folders of the Python installations that answer.
 pub(crate) fn python_packages() -> Vec<PathBuf> {
-    let mut packages: Vec<PathBuf> = Vec::new();
     let interpreters: &[&str] = if cfg!(windows) {
         &["python", "py"]
     } else {
         &["python3"]
     };
-    packages.extend(
-        interpreters
-            .iter()
-            .filter_map(|interpreter| ask(interpreter)),
-    );
-    for root in python_roots() {
-        packages.extend(
-            site_packages(&root)
-                .into_iter()
-                .map(|folder| folder.join("onnxruntime")),
-        );
-    }
-    let mut folders: Vec<PathBuf> = Vec::new();
-    for package in packages {
-        let folder = package.join("capi");
-        if folder.is_dir() && !folders.contains(&folder) {
-            folders.push(folder);
-        }
-    }
-    folders
+    let packages = interpreters
+        .iter()
+        .filter_map(|interpreter| ask(interpreter));
+    packages
+        .map(|package| package.join("capi"))
+        .filter(|folder| folder.is_dir())
+        .collect()
 }
 
 /// The folder of the package, as an interpreter sees it.
@@ -101,40 +86,6 @@ fn ask(interpreter: &str) -> Option<PathBuf> {
     let answer = String::from_utf8(output.stdout).ok()?;
     let answer = answer.trim();
     (output.status.success() && !answer.is_empty()).then(|| PathBuf::from(answer))
-}
-
-fn python_roots() -> Vec<PathBuf> {
-    let variables = ["VIRTUAL_ENV", "CONDA_PREFIX"];
-    let mut roots: Vec<PathBuf> = variables
-        .iter()
-        .filter_map(env::var_os)
-        .map(PathBuf::from)
-        .collect();
-    if let Some(home) = env::var_os("HOME") {
-        roots.push(PathBuf::from(home).join(".local"));
-    }
-    roots.extend(["/usr/local", "/usr"].map(PathBuf::from));
-    roots
-}
-
-/// `lib/python*/site-packages` and Debian's `dist-packages` under a root.
-fn site_packages(root: &Path) -> Vec<PathBuf> {
-    if cfg!(windows) {
-        return vec![root.join("Lib/site-packages")];
-    }
-    let entries = std::fs::read_dir(root.join("lib"))
-        .into_iter()
-        .flatten()
-        .flatten();
-    let mut pythons: Vec<PathBuf> = entries
-        .filter(|entry| entry.file_name().to_string_lossy().starts_with("python3"))
-        .map(|entry| entry.path())
-        .collect();
-    pythons.sort_unstable_by(|a, b| b.cmp(a));
-    pythons
-        .into_iter()
-        .flat_map(|python| [python.join("site-packages"), python.join("dist-packages")])
-        .collect()
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! A picture of pixels, and its PNG and SVG.
+//! A picture of pixels, and its PNG.
 //!
 //! Everything that is drawn comes down to three operations: to fill a rectangle, to fill a
 //! path and to stroke a path. Shapes, markers and text are built on them in files of their own.
@@ -10,7 +10,6 @@ use crate::error::PlotError;
 use crate::font::Fonts;
 use crate::rect::Rect;
 use crate::stroke::Stroke;
-use crate::svg::Recorder;
 
 const MAX_SIDE_PX: u32 = 16_384;
 
@@ -18,7 +17,6 @@ const MAX_SIDE_PX: u32 = 16_384;
 pub struct Canvas {
     pub(crate) pixmap: Pixmap,
     pub(crate) fonts: Fonts,
-    pub(crate) svg: Option<Recorder>,
 }
 
 impl Canvas {
@@ -39,26 +37,7 @@ impl Canvas {
         Ok(Self {
             pixmap,
             fonts: Fonts::embedded()?,
-            svg: None,
         })
-    }
-
-    /// A white canvas that also records what is drawn, for [`Canvas::svg`].
-    ///
-    /// # Errors
-    /// As [`Canvas::new`].
-    pub fn recording(width_px: u32, height_px: u32) -> Result<Self, PlotError> {
-        Ok(Self {
-            svg: Some(Recorder::new()),
-            ..Self::new(width_px, height_px)?
-        })
-    }
-
-    /// The picture as SVG; `None` if the canvas was not made by [`Canvas::recording`].
-    #[must_use]
-    pub fn svg(&self) -> Option<String> {
-        let recorder = self.svg.as_ref()?;
-        Some(recorder.document(self.pixmap.width(), self.pixmap.height()))
     }
 
     /// The rectangle of the whole canvas, pixels.
@@ -81,9 +60,6 @@ impl Canvas {
         let (right, bottom) = (right.min(width), bottom.min(height));
         if left >= right {
             return;
-        }
-        if let Some(svg) = &mut self.svg {
-            svg.rect(rect, color);
         }
         let opacity = u32::from(color.a);
         let opaque = [color.r, color.g, color.b, 255];
@@ -127,9 +103,6 @@ impl Canvas {
     }
 
     pub(crate) fn fill_path(&mut self, path: &Path, color: Color) {
-        if let Some(svg) = &mut self.svg {
-            svg.fill(path, color);
-        }
         self.pixmap.fill_path(
             path,
             &paint(color),
@@ -140,9 +113,6 @@ impl Canvas {
     }
 
     pub(crate) fn stroke_path(&mut self, path: &Path, stroke: Stroke, line_join: LineJoin) {
-        if let Some(svg) = &mut self.svg {
-            svg.stroke(path, stroke);
-        }
         let pen = tiny_skia::Stroke {
             width: stroke.width,
             line_cap: LineCap::Butt,

@@ -25,13 +25,6 @@ impl Color {
     pub const fn alpha(self, a: u8) -> Self {
         Self { a, ..self }
     }
-
-    /// Relative luminance as the eye weighs the channels, 0..=1, gamma ignored.
-    #[must_use]
-    pub fn luma(self) -> f32 {
-        (0.2126 * f32::from(self.r) + 0.7152 * f32::from(self.g) + 0.0722 * f32::from(self.b))
-            / 255.0
-    }
 }
 
 /// Inks that colour-blind readers can tell apart (Okabe and Ito, 2008), and greys.

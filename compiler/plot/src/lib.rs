@@ -4,7 +4,7 @@
 //! There are three layers, and each can be used alone.
 //!
 //! * A [`Canvas`] takes lines, areas, markers and text at pixel positions. It gives the bytes
-//!   of a PNG; one made by [`Canvas::recording`] gives an SVG too.
+//!   of a PNG.
 //! * An [`Axis`] turns values into positions and picks round ticks.
 //! * A [`Panel`] spans a rectangle with two axes, draws the frame, and takes data in the
 //!   units of its axes: lines, sampled series, points, heat maps.
@@ -77,7 +77,6 @@ mod series;
 mod shapes;
 pub mod size;
 mod stroke;
-mod svg;
 mod text;
 mod text_style;
 

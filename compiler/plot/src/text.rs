@@ -58,9 +58,6 @@ impl Canvas {
         } else {
             Transform::from_translate(snap(x + along), (y + across).round())
         };
-        if let Some(svg) = &mut self.svg {
-            svg.text(text, (placed.tx, placed.ty), style, width);
-        }
         if let Some(outline) = self.fonts.outline(text, style.bold, style.size) {
             self.pixmap.fill_path(
                 &outline,

@@ -2,4 +2,3 @@
 //! its line here; `.ci/check-tests` fails without it.
 
 mod names;
-mod svg;

@@ -94,8 +94,7 @@ fn facing(
 }
 
 /// Exponents of speed and force that fit ln σ over the vertices best.
-#[must_use]
-pub fn growth(vertices: &[GridVertex]) -> (f64, f64) {
+fn growth(vertices: &[GridVertex]) -> (f64, f64) {
     let points: Vec<[f64; 3]> = vertices
         .iter()
         .filter(|v| v.sigma_m_s2 > 0.0 && v.speed_mm_s > 0.0 && v.force_n > 0.0)

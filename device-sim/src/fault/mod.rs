@@ -11,7 +11,8 @@
 //! | late | stale samples, then one that says how many ticks passed |
 
 mod injector;
-mod plan;
+mod kind;
 
+pub use asperity_host::fault_plan::FaultPlan;
 pub use injector::FaultInjector;
-pub use plan::{FaultPlan, SampleFault};
+pub use kind::SampleFault;

@@ -155,32 +155,6 @@ fn rounds(
     Script::new(motions)
 }
 
-/// Two taps, then strokes of one sine under one load for the rest of `seconds`.
-#[must_use]
-pub fn sine(seed: u64, seconds: f64, (max_speed_mm_s, max_force_n): (f64, f64)) -> Script {
-    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-    let mut between = |low: f64, high: f64| low + (high - low) * unit(&mut rng);
-    let amplitude_m = between(0.01, 0.04);
-    let fastest_m_s = 1e-3 * MOST.0.min(max_speed_mm_s);
-    let frequency_hz = between(0.4, 2.5).min(fastest_m_s / (std::f64::consts::TAU * amplitude_m));
-    let force_n = between(0.4, MOST.1.min(max_force_n));
-    let tap = Motion::Tap { speed_m_s: 0.15 };
-    Script::new(vec![
-        Motion::Approach {
-            to_m: [0.0, 0.0, HOVER_M],
-            duration_s: 1.5,
-        },
-        tap,
-        tap,
-        Motion::Scrub {
-            amplitude_m,
-            frequency_hz,
-            cycles: (seconds * frequency_hz).ceil(),
-            force_n,
-        },
-    ])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,8 +2,9 @@
 
 use asperity_formats::Asset;
 use asperity_host::device::Device;
-use asperity_host::device::fault_injection::{Faulty, Plan};
+use asperity_host::device::fault_injection::{Faulty, InjectedFault};
 use asperity_host::device::supervised::{Plausible, Report, Supervised};
+use asperity_host::fault_plan::FaultPlan;
 use asperity_host::session_log::{Conditions, Entry, TextureInfo};
 use asperity_runtime::{Config, HostTexture, Output, Renderer, State};
 
@@ -51,9 +52,14 @@ pub(crate) struct Servo<'a, D> {
 }
 
 impl<'a, D: Device> Servo<'a, D> {
-    pub(crate) fn new(device: D, texture: &'a HostTexture, plan: Plan, seed: u64) -> Self {
+    pub(crate) fn new(
+        device: D,
+        texture: &'a HostTexture,
+        plan: FaultPlan<InjectedFault>,
+        seed: u64,
+    ) -> Self {
         let config = Config::default();
-        let faulty = Faulty::new(device, plan, seed).expect("a plan");
+        let faulty = Faulty::new(device, plan, seed);
         Self {
             device: Supervised::new(faulty, &config, Plausible::default()),
             renderer: Renderer::new(&config).expect("a configuration"),

@@ -1,12 +1,12 @@
 //! Every fault on every back end: what becomes of the force, and when.
 
 use asperity_host::device::dhd::Dhd;
+use asperity_host::device::fault_injection::InjectedFault;
 use asperity_host::device::fault_injection::trial::{AFTER, LASTS, Row, Trial};
-use asperity_host::device::fault_injection::{InjectedFault, Plan};
 use asperity_host::device::openhaptics::OpenHaptics;
 use asperity_host::device::replay::{AtEnd, Replay};
 use asperity_host::device::{Description, Device, DeviceError, Reading};
-use asperity_host::fault_plan::FaultKind as _;
+use asperity_host::fault_plan::FaultPlan;
 use asperity_host::session_log::{Encoder, SessionLog};
 use asperity_runtime::{Config, HostTexture};
 
@@ -74,11 +74,10 @@ fn stroke(period: u32) -> [f64; 3] {
 type Column = (&'static str, Box<dyn FnMut(InjectedFault) -> Row>);
 
 fn columns(texture: &'static HostTexture, bytes: &[u8]) -> Vec<Column> {
-    let plan = Plan::default();
     // Mid-stroke: the third motion of the script and on.
     let warm_up = 4600;
     let mut encoder = Encoder::new(Vec::new(), &conditions(bytes, "sim:")).expect("a vector");
-    let mut recorded = Servo::new(Simulated::new(1, 2), texture, plan, 1);
+    let mut recorded = Servo::new(Simulated::new(1, 2), texture, FaultPlan::default(), 1);
     for _ in 0..warm_up + LASTS + AFTER {
         encoder
             .push(&recorded.period().entry)

@@ -2,11 +2,8 @@
 //!
 //! A [`Device`] is a state machine that knows no transport and no clock. A [`Port`] is the socket
 //! that it is plugged into: it answers the standard requests, injects faults, and is unplugged and
-//! plugged in again. A port is served in two ways:
-//!
-//! - [`InProcess`] is a transport for a driver in the same program;
-//! - [`usbip`] serves it over TCP. A Linux kernel attaches it as a real device (`vhci-hcd`), and the
-//!   bridge in `umockdev/` hands it to libusb where there is no kernel for it.
+//! plugged in again. [`usbip`] serves it over TCP: a Linux kernel attaches it as a real device
+//! (`vhci-hcd`), and the bridge in `umockdev/` hands it to libusb where there is no kernel for it.
 //!
 //! | module | holds |
 //! |---|---|
@@ -19,13 +16,11 @@
 
 pub mod descriptor;
 pub mod falcon;
-mod in_process;
 mod port;
 pub mod touch;
 pub mod transfer_fault;
 pub mod usbip;
 
-pub use in_process::{InProcess, InProcessOpener};
 pub use port::{Port, Reply, Setup, Socket};
 
 use descriptor::Descriptors;

@@ -8,7 +8,9 @@ use asperity_host::device::falcon::{Falcon, OpenError};
 use asperity_host::device::{Device as _, DeviceError, Reading};
 use asperity_virtual_usb::falcon::{Falcon as Virtual, Quirks, image};
 use asperity_virtual_usb::transfer_fault::Rates;
-use asperity_virtual_usb::{InProcessOpener, Port, Socket};
+use asperity_virtual_usb::{Port, Socket};
+
+use crate::in_process::InProcessOpener;
 
 fn open(socket: &Socket<Virtual>, settings: Settings) -> Result<Falcon, OpenError> {
     Falcon::open(Box::new(InProcessOpener(socket.clone())), settings)

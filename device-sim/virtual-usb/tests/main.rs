@@ -1,5 +1,8 @@
 //! The integration tests of this crate, one binary, so that they are linked once. A new file needs
 //! its line here; `.ci/check-tests` fails without it.
 
+mod client;
 mod falcon;
+mod faults;
+mod in_process;
 mod usbip;

@@ -10,18 +10,18 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use asperity_formats::Asset;
-use asperity_host::device::exercise::{Plan, exercise};
 use asperity_host::device::falcon::link::LinkCounts;
 use asperity_host::device::falcon::on_usb;
+use asperity_host::device::fault_injection::trial::Paced;
+use asperity_host::device::supervised::{Plausible, Supervised};
 use asperity_host::device::touch::{Face, identify, open as open_touch};
 use asperity_host::device::usb::scan::scan;
-use asperity_host::device::usb::watch::{Event, has_hotplug, watch};
 use asperity_host::device::usb::{Access, Ids, Kind, UsbError};
 use asperity_host::device::{Device as _, DeviceError};
 use asperity_host::session_log::{
     Conditions, Encoder, Entry, SessionLog, TextureInfo, render_again,
 };
-use asperity_runtime::{Config, HostTexture};
+use asperity_runtime::{Config, Flags, HostTexture, Renderer, State, math::norm};
 use asperity_virtual_usb::falcon::{Falcon, Quirks, image};
 use asperity_virtual_usb::touch::{Firmware, Touch};
 use asperity_virtual_usb::transfer_fault::Rates;
@@ -202,95 +202,60 @@ fn child_feels_a_texture() {
     texture
         .load(&asset, Config::default().servo_rate_hz)
         .expect("it loads");
-    let mut falcon = on_usb::open(&"falcon:".parse().expect("a name")).expect("a Falcon");
-    let plan = Plan {
-        mechanics: Config::default().mechanics,
-        ticks: told().parse().expect("ticks"),
-        rate_hz: 0.0,
-        peak_n: 3.3,
-        seed: 1,
-        patience: 600,
-    };
+    let falcon = on_usb::open(&"falcon:".parse().expect("a name")).expect("a Falcon");
+    let config = Config::default();
     let conditions = Conditions {
         program: "test".into(),
         device: "falcon:".into(),
         texture: Some(TextureInfo::of("built in", bytes)),
         scene: None,
-        seed: plan.seed,
-        config: plan.config(falcon.description()),
+        seed: 1,
+        config: config.clone(),
     };
+    let (peak_n, slew_n) = (
+        config.limits.peak_n,
+        config.limits.slew_n_s / config.servo_rate_hz,
+    );
+    let renderer = Renderer::new(&config).expect("a configuration");
+    let mut state = State::new(conditions.seed);
     let mut encoder = Encoder::new(Vec::new(), &conditions).expect("a vector");
-    let report = exercise(&mut falcon, &texture, &plan, |sample, output| {
-        let entry = Entry::new(*sample, output);
+    // The hand strokes and taps around the place where it is at first.
+    let paced = Paced::begin(falcon, 0.0, PATIENCE).expect("a position");
+    let mut device = Supervised::new(paced, &config, Plausible::default());
+    let (mut contact, mut largest_n, mut held_n) = (0, 0.0, [0.0; 3]);
+    let ticks: u64 = told().parse().expect("ticks");
+    for _ in 0..ticks {
+        let sample = device.read(1).sample;
+        let output = renderer.tick(&texture, &mut state, &sample);
+        let entry = Entry::new(sample, &output);
         encoder.push(&entry).expect("a vector takes all");
-    });
-    let report = report.expect("a configuration");
-    println!("{report:#?}\n{:?}", falcon.counts());
+        contact += u32::from(output.flags.contains(Flags::CONTACT));
+        let written = device.write(output.force_n);
+        let step_n: [f32; 3] = std::array::from_fn(|axis| device.held_n()[axis] - held_n[axis]);
+        held_n = device.held_n();
+        largest_n = f32::max(largest_n, norm(held_n));
+        // A device without power holds no force.
+        let is_step = norm(step_n) <= slew_n * (1.0 + 1e-5);
+        assert!(is_step || written == Err(DeviceError::Disconnected));
+        assert!(norm(output.force_n) <= peak_n * (1.0 + 1e-5));
+        if device.wants_recovery() {
+            let begun = Instant::now();
+            while let Err(fault) = device.recover() {
+                assert!(begun.elapsed() < PATIENCE, "{fault}");
+                std::thread::sleep(Duration::from_millis(20));
+            }
+        }
+    }
+    let tally = device.tally();
+    println!("{tally:#?}\n{contact} in contact, at most {largest_n} N");
     let (file, _) = encoder.finish(0).expect("a vector takes all");
     let recording = SessionLog::read(&mut &file[..]).expect("a recording");
     let again = render_again(&recording, |_| Some(bytes.to_vec())).expect("rendered");
     println!("rendered again: {again:?}");
-    // While the device is away, further ticks let go of the force.
-    assert!(again.is_same() && again.compared >= u64::from(report.ticks));
-    let told = report.faults.values().sum::<u32>();
-    assert_eq!(report.fresh + report.stale + told, report.ticks);
-    assert_eq!(
-        (report.ticks, report.beyond_limits, report.lost),
-        (plan.ticks, 0, false)
-    );
+    assert!(again.is_same() && again.compared == ticks);
     // A busy machine makes more ticks stale than the faults do.
-    assert!(
-        report.fresh > plan.ticks / 10 && report.contact > 0,
-        "{report:?}"
-    );
-}
-
-#[test]
-#[ignore = "needs umockdev: run .ci/check-usb"]
-fn over_usb_a_device_that_is_plugged_out_and_in_is_told() {
-    let served = Served::new(Port::new(running()));
-    let socket = served.socket.clone();
-    // The child says when it has seen the device, however long that takes.
-    let folder = tempfile::tempdir().expect("a folder");
-    let seen = folder.path().join("seen");
-    let waited_for = seen.clone();
-    let unplugging = std::thread::spawn(move || {
-        let begun = Instant::now();
-        while !waited_for.exists() && begun.elapsed() < PATIENCE {
-            std::thread::sleep(Duration::from_millis(20));
-        }
-        socket.port().unplug(2.0);
-    });
-    served.child("child_watches", &seen.display().to_string(), &[]);
-    unplugging.join().expect("it unplugs");
-}
-
-#[test]
-#[ignore = "a child"]
-fn child_watches() {
-    let ids = Ids::built_in().expect("the list");
-    let begun = Instant::now();
-    let mut events = Vec::new();
-    let watched = watch(&ids, |event| {
-        if event.is_some() && events.is_empty() {
-            std::fs::write(told(), "").expect("a file");
-        }
-        events.extend(event);
-        events.len() < 3 && begun.elapsed() < PATIENCE
-    });
-    watched.expect("USB");
-    println!("hot-plug by libusb: {}; {events:#?}", has_hotplug());
-    let [
-        Event::Arrived(first),
-        Event::Left(left),
-        Event::Arrived(second),
-    ] = &events[..]
-    else {
-        panic!("{events:?}");
-    };
-    assert_eq!(first.address, left.address);
-    assert_ne!(first.address, second.address);
-    assert_eq!(second.serial.as_deref(), Some("VF0001"));
+    let fresh = ticks - tally.stale - tally.read_faults;
+    assert!(fresh > ticks / 10 && contact > 0, "{tally:?}");
 }
 
 #[test]

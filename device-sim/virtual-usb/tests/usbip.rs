@@ -10,10 +10,11 @@ use asperity_host::device::falcon::ftdi::{RUNNING, payload};
 use asperity_virtual_usb::falcon::Falcon;
 use asperity_virtual_usb::touch::{Firmware, Touch};
 use asperity_virtual_usb::transfer_fault::Rates;
-use asperity_virtual_usb::usbip::client::{Client, Event};
 use asperity_virtual_usb::usbip::server::Server;
 use asperity_virtual_usb::usbip::wire::{BUSY, GRANTED, NO_DEVICE, status};
 use asperity_virtual_usb::{AnyDevice, Port, Setup, Socket};
+
+use crate::client::{Client, Event};
 
 struct Served {
     server: Arc<Server>,

@@ -6,7 +6,6 @@
 
 pub mod dhd;
 mod error;
-pub mod exercise;
 pub mod falcon;
 pub mod fault_injection;
 mod null;

@@ -126,8 +126,6 @@ pub struct Conditions {
     pub device: String,
     /// The texture or scene.
     pub texture: String,
-    /// Load on the machine during the run.
-    pub load: String,
     /// Injected delay.
     pub injected: Option<String>,
     /// Version of Asperity.

@@ -14,7 +14,6 @@
 //! | `hgrm`, `hlog`, `encoded` | the files of HdrHistogram's own tools |
 //! | `compare` | the shift of each percentile, with a bootstrap confidence interval |
 //! | `inject` | a controlled delay, to check that it is detected |
-//! | `load` | bounded load on the machine meanwhile |
 //! | `conditions` | the conditions of a run |
 //! | `cyclictest` | the same measurement by another program |
 
@@ -27,7 +26,6 @@ mod facts;
 mod hgrm;
 mod hlog;
 mod inject;
-mod load;
 mod percentiles;
 mod run;
 mod series;
@@ -42,7 +40,6 @@ pub use facts::Facts;
 pub use hgrm::percentile_distribution;
 pub use hlog::{LogError, is_log, read_log, write_log};
 pub use inject::{Delayed, Injection, InjectionError};
-pub use load::{Load, Loading};
 pub use percentiles::{Percentiles, QUANTILES, carries};
 pub use run::{Counts, Interval, Run};
 pub use series::Series;

@@ -86,14 +86,6 @@ int dhdGetPosition(double *x, double *y, double *z, signed char id) {
   return guarded ? 1 : 0;
 }
 
-int dhdGetLinearVelocity(double *x, double *y, double *z, signed char id) {
-  (void)id;
-  *x = 0.1;
-  *y = 0.2;
-  *z = 0.3;
-  return 0;
-}
-
 unsigned dhdGetButtonMask(signed char id) {
   (void)id;
   return buttons;

@@ -144,7 +144,6 @@ void hdGetDoublev(unsigned what, double *out) {
       if (!in_frame) out_of_frame = 1;
       memcpy(out, position, sizeof position);
       break;
-    case 0x2051: memcpy(out, velocity, sizeof velocity); break;
     case 0x2603: *out = 3.3; break;
     case 0x2604: *out = 0.88; break;
     default: pending = 0x0100;

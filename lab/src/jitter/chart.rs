@@ -57,10 +57,9 @@ fn heading(canvas: &mut Canvas, run: &Run) {
         let granted = conditions.granted.iter();
         let mut policy = granted.filter_map(|asked| asked.strip_prefix("policy: "));
         below += &format!(
-            "; {}, {}, load {}",
+            "; {}, {}",
             policy.next_back().unwrap_or("no policy granted"),
-            conditions.device,
-            conditions.load
+            conditions.device
         );
         if let Some(injected) = &conditions.injected {
             below += &format!(", delay {injected}");

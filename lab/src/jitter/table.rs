@@ -157,13 +157,12 @@ fn conditions_of(conditions: &Conditions) -> String {
         or_none(&conditions.refused)
     );
     text += &format!(
-        "loop       {} Hz, overrun {}, spin {} µs, device {}, texture {}, load {}, delay {}, asperity {}\n",
+        "loop       {} Hz, overrun {}, spin {} µs, device {}, texture {}, delay {}, asperity {}\n",
         conditions.rate_hz,
         conditions.overrun,
         conditions.spin_us,
         conditions.device,
         conditions.texture,
-        conditions.load,
         conditions.injected.as_deref().unwrap_or("none"),
         conditions.version
     );

@@ -1,6 +1,8 @@
 // Ticks of the servo loop behind the server. The next ones are asked for when the last ones are dealt
 // with, so that a page that is slow skips ticks and never falls behind.
 
+import { Events } from "../events.js";
+
 /** At most so often, ms: a frame shows no more. */
 const LEAST_MS = 30;
 /** Rest after a failure, ms. */
@@ -9,7 +11,11 @@ const RETRY_MS = 2000;
 const sleep = (ms) => new Promise((done) => setTimeout(done, ms));
 const nextFrame = () => new Promise((done) => requestAnimationFrame(done));
 
-export class Feed {
+/**
+ * Emits "news" of the server and "ticks" for the plots as those of the worklet; "silence" with the error where the server does
+ * not answer, and with null when it does again.
+ */
+export class Feed extends Events {
   /** Ticks that the page did not get. */
   lost = 0;
   #server;
@@ -18,14 +24,9 @@ export class Feed {
   #last = Infinity;
 
   constructor(server) {
+    super();
     this.#server = server;
   }
-
-  /** Called with the server's news, and with messages for the plots as those of the worklet. */
-  onnews = () => {};
-  onticks = () => {};
-  /** Called where the server does not answer, with the error, and when it does again, with `null`. */
-  onsilence = () => {};
 
   /** Asks until the loop is over. */
   async run() {
@@ -38,11 +39,11 @@ export class Feed {
         const news = await this.#server.deviceTicks(after);
         ({ next: after, ended } = news);
         this.lost += news.lost;
-        this.onsilence(null);
-        this.onnews(news);
-        for (const run of news.ticks.runs) this.onticks(this.#message(run));
+        this.emit("silence", null);
+        this.emit("news", news);
+        for (const run of news.ticks.runs) this.emit("ticks", this.#message(run));
       } catch (error) {
-        this.onsilence(error);
+        this.emit("silence", error);
         await sleep(RETRY_MS);
       }
       await sleep(Math.max(0, LEAST_MS - (performance.now() - began_ms)));

@@ -1,7 +1,6 @@
 // The device behind the server: what its loop does, how punctual it is, and what it plays.
 
-import { announce, element, find, recall, remember } from "../dom.js";
-import { notify, withdraw } from "../notices.js";
+import { announce, element, find, notify, recall, remember, withdraw } from "../dom.js";
 import { COLUMN, WIDTH } from "../plots/ring.js";
 import { texts } from "../texts.js";
 import { Feed } from "./feed.js";
@@ -17,13 +16,14 @@ const SHOW_MS = 200;
 
 const stateOf = (flags) => STATES.find(([bit]) => flags & bit)?.[1] ?? "free";
 
-/** Builds the panel where `about` names a device. `plots` gives those of a tick rate. */
+/** Builds the panel where `about` names a device, which the plots then show. */
 export function startDevicePanel({ server, state, surface, plots }) {
   state.on(["about"], ({ about }) => {
     const panel = find("servo-panel");
     if (!about?.device || !panel.hidden) return;
     panel.hidden = false;
-    new DevicePanel({ server, state, surface, plots: plots(about.device.rate_hz) }, about.device);
+    plots.begin(about.device.rate_hz);
+    new DevicePanel({ server, state, surface, plots }, about.device);
   });
 }
 
@@ -51,10 +51,10 @@ class DevicePanel {
       ...(swaps ? this.#swap() : [element("p", { class: "small" }, texts.device.scene)]),
       this.#said);
     this.#feed = new Feed(parts.server);
-    this.#feed.onnews = (news) => this.#news(news);
-    this.#feed.onticks = (ticks) => this.#ticks(ticks);
-    this.#feed.onsilence = (error) => error
-      ? notify("servo", { text: texts.device.silent, help: error.help ?? texts.device.silent_help }) : withdraw("servo");
+    this.#feed.on("news", (news) => this.#news(news));
+    this.#feed.on("ticks", (ticks) => this.#ticks(ticks));
+    this.#feed.on("silence", (error) => error
+      ? notify("servo", { text: texts.device.silent, help: error.help ?? texts.device.silent_help }) : withdraw("servo"));
     this.#feed.run();
   }
 

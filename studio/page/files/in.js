@@ -1,7 +1,6 @@
 // Files into the page: by drop anywhere, or chosen; several one after another.
 
-import { announce, element, find } from "../dom.js";
-import { notify, withdraw } from "../notices.js";
+import { announce, element, find, notify, withdraw } from "../dom.js";
 import { Refusal } from "../server.js";
 import { texts } from "../texts.js";
 

@@ -1,18 +1,42 @@
 // The panel “Take it with you”: every file of the texture, and a library of the session.
 
-import { announce, element, find } from "../dom.js";
-import { notify, withdraw } from "../notices.js";
-import { save } from "../save.js";
+import { announce, busily, element, find, notify, save, withdraw } from "../dom.js";
 import { Refusal } from "../server.js";
 import { texts } from "../texts.js";
-import { fileName, kindsOf } from "./kinds.js";
 import { Pack } from "./pack.js";
 
 const COLUMNS = [["own", "see", "hear"], ["tools", "code"]];
 
+const GROUPS = {
+  own: ["asp", "json"],
+  see: ["png", "normal.png", "height.png", "plot.png"],
+  hear: ["listen.wav", "export.wav", "export.csv"],
+  tools: ["export.hjif", "export.hmpg", "export.ahap", "export.haptic", "export.gltf"],
+  code: ["export.c", "export.h", "export.rs"],
+};
+/** What follows the name of the texture's own file, where the ending alone would not tell. */
+const SUFFIXES = { "normal.png": " normal.png", "height.png": " height.png", "plot.png": " plot.png", "export.wav": " acceleration.wav",
+  "export.csv": " acceleration.csv", "listen.wav": ".wav" };
+
+/** { group: [{ ending, suffix, label, purpose }] }, of `about`. */
+function kindsOf({ exports, files, opens }) {
+  const known = new Set(Object.values(GROUPS).flat());
+  const offered = new Map(exports.map((entry) => [entry.ending, entry]));
+  const kind = (ending) => {
+    const [label, purpose] = texts.files.kinds[ending] ?? texts.files.other(offered.get(ending).format);
+    return { ending, suffix: SUFFIXES[ending] ?? `.${offered.get(ending)?.file_ending ?? ending}`, label, purpose };
+  };
+  const isThere = (ending) => (files && !opens ? files.includes(ending) : !ending.startsWith("export.") || offered.has(ending));
+  const others = [...offered.keys()].filter((ending) => !known.has(ending));
+  return Object.fromEntries(Object.entries({ ...GROUPS, tools: [...GROUPS.tools, ...others] }).map(([group, endings]) =>
+    [group, endings.filter(isThere).map(kind)]));
+}
+
+/** The name of such a file: `wet ice.asp` gives `wet ice.png`. */
+const fileName = ({ file }, suffix) => file.replace(/\.asp$/, "") + suffix;
+
 export class Out {
   #server;
-  #texture = null;
 
   constructor({ server, state, loader }) {
     this.#server = server;
@@ -27,14 +51,13 @@ export class Out {
   }
 
   #show(texture, about) {
-    this.#texture = texture;
     find("take-button").disabled = texture === null;
     if (!texture || !about) return;
     this.title.textContent = texture.name;
     const button = (kind) => {
       const name = fileName(texture, kind.suffix);
       return element("li", {}, element("button", { type: "button", class: "kind", title: name, "data-ending": kind.ending,
-        onclick: ({ currentTarget }) => this.#save(texture, kind, name, currentTarget) },
+        onclick: ({ currentTarget }) => busily(currentTarget, () => this.#save(texture, kind, name)) },
       element("span", { class: "label" }, kind.label), element("span", { class: "ending" }, kind.suffix.trim()),
       element("span", { class: "purpose" }, kind.purpose)));
     };
@@ -45,9 +68,7 @@ export class Out {
       ...column.filter((group) => groups[group].length > 0).map(section))));
   }
 
-  async #save(texture, { ending }, name, button) {
-    if (button.getAttribute("aria-busy") === "true") return;
-    button.setAttribute("aria-busy", "true");
+  async #save(texture, { ending }, name) {
     try {
       save(name, await this.#server.download(texture, ending));
       withdraw(`save ${ending}`);
@@ -55,8 +76,6 @@ export class Out {
     } catch (error) {
       if (!(error instanceof Refusal)) throw error;
       notify(`save ${ending}`, { text: texts.files.not_saved(name, error.message), help: error.help });
-    } finally {
-      button.removeAttribute("aria-busy");
     }
   }
 }

@@ -1,7 +1,6 @@
 // The textures that were on the surface in this session, to choose a library from.
 
-import { element } from "../dom.js";
-import { save } from "../save.js";
+import { busily, element, save, showRefusal } from "../dom.js";
 import { Refusal } from "../server.js";
 import { texts } from "../texts.js";
 
@@ -32,11 +31,11 @@ export class Pack {
     this.#server = server;
     this.list = element("ol", { class: "packs" });
     this.error = element("div", { class: "error", role: "alert" });
-    this.button = element("button", { type: "button", class: "strong", id: "pack", onclick: () => this.#pack() });
+    this.button = element("button", { type: "button", class: "strong", id: "pack", onclick: () => busily(this.button, () => this.#pack()) });
     this.element = element("section", { class: "session-library", "data-needs": "server" }, element("h3", {}, texts.files.session),
       element("p", { class: "small" }, texts.files.session_hint), this.list, this.error, this.button);
     this.#count();
-    loader.onshown.push((texture, { kind }) => this.#add(texture, !HAS_FILE.includes(kind)));
+    loader.on("shown", ({ texture, how: { kind } }) => this.#add(texture, !HAS_FILE.includes(kind)));
   }
 
   #add(texture, chosen) {
@@ -60,11 +59,7 @@ export class Pack {
     const chosen = this.#chosen;
     this.button.textContent = texts.files.pack(chosen.length);
     this.button.disabled = chosen.length === 0;
-    this.#refuse(null);
-  }
-
-  #refuse(why, help) {
-    this.error.replaceChildren(...(why === null ? [] : [element("p", {}, element("strong", {}, why)), element("p", {}, help ?? "")]));
+    showRefusal(this.error, null);
   }
 
   async #pack() {
@@ -74,16 +69,13 @@ export class Pack {
     const long = names.find((name) => bytesOf(name) > NAME_BYTES);
     const wrong = names.includes("") ? texts.files.name_empty : long !== undefined ? texts.files.name_long(long)
       : twice !== undefined ? texts.files.name_twice(twice) : null;
-    if (wrong) return this.#refuse(wrong, texts.files.name_help);
-    this.button.setAttribute("aria-busy", "true");
+    if (wrong) return showRefusal(this.error, { message: wrong, help: texts.files.name_help });
     try {
       save(texts.files.session_file, await this.#server.pack(chosen));
-      this.#refuse(null);
+      showRefusal(this.error, null);
     } catch (error) {
       if (!(error instanceof Refusal)) throw error;
-      this.#refuse(texts.files.not_packed(error.message), error.help);
-    } finally {
-      this.button.removeAttribute("aria-busy");
+      showRefusal(this.error, { message: texts.files.not_packed(error.message), help: error.help });
     }
   }
 }

@@ -1,20 +1,49 @@
 // The gallery: which library is shown, how, and what is picked from it.
 
-import { element, find } from "../dom.js";
-import { notify, withdraw } from "../notices.js";
+import { element, find, notify, withdraw } from "../dom.js";
 import { Refusal } from "../server.js";
 import { texts } from "../texts.js";
 import { valueText } from "./attributes.js";
 import { Compare } from "./compare.js";
 import { Filters } from "./filters.js";
 import { Grid } from "./grid.js";
-import { handButton } from "./hand-button.js";
 import { Library } from "./library.js";
 import { mountScatter } from "./scatter.js";
-import { startViews } from "./views.js";
 
 /** How long the arrow keys rest before what they reached is picked, ms. */
 const REACHED_MS = 150;
+
+/** The button of the hand that moves by itself, once more, beside what is picked. */
+function handButton() {
+  const original = find("auto");
+  const button = element("button", { type: "button", class: "hand", onclick: () => original.click() });
+  const follow = () => {
+    button.textContent = original.textContent;
+    button.disabled = original.disabled;
+    button.setAttribute("aria-pressed", original.getAttribute("aria-pressed"));
+  };
+  new MutationObserver(follow).observe(original, { attributes: true, childList: true, characterData: true, subtree: true });
+  follow();
+  return button;
+}
+
+/** The page's two views: the prompt, or the gallery in its place. Surface and controls stay. */
+const VIEWS = ["prompt", "gallery"];
+
+/** `changed()` hears of every change; gives { show(view) }. */
+function startViews(changed) {
+  const inputs = VIEWS.map((view) => element("input", { type: "radio", name: "view", value: view, onchange: () => show(view) }));
+  const show = (view) => {
+    inputs[VIEWS.indexOf(view)].checked = true;
+    find("desk").classList.toggle("browsing", view === "gallery");
+    find("gallery").hidden = view !== "gallery";
+    changed();
+  };
+  find("views").replaceChildren(...inputs.map((input, n) =>
+    element("label", {}, input, element("span", {}, texts.gallery.view[VIEWS[n]]))));
+  show("prompt");
+  return { show };
+}
 
 class Gallery {
   #parts;
@@ -170,9 +199,9 @@ class Gallery {
 export function startGallery(parts) {
   const { loader } = parts;
   const gallery = new Gallery(parts);
-  loader.onrefused.push(({ message, help }, how) => {
+  loader.on("refused", ({ refusal: { message, help }, how }) => {
     if (how?.kind === "pick") notify("pick", { text: texts.gallery.not_picked(how.name, message), help });
   });
-  loader.onshown.push((_texture, { kind }) => kind === "pick" && withdraw("pick"));
+  loader.on("shown", ({ how: { kind } }) => kind === "pick" && withdraw("pick"));
   return gallery;
 }

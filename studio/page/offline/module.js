@@ -1,10 +1,12 @@
 // The compiler's module behind its worker: started by the first request, and again after it has failed.
 
+import { Events } from "../events.js";
 import { texts } from "../texts.js";
 
 export class ModuleFailure extends Error {}
 
-export class Module {
+/** Emits "load" with bytes while the module loads, and with null once it is ready or has failed; "fail" when what it made is lost. */
+export class Module extends Events {
   #address;
   #version;
   #worker = null;
@@ -14,14 +16,10 @@ export class Module {
 
   /** `address` is that of the module, `version` that of the page. */
   constructor(address, version) {
+    super();
     this.#address = address;
     this.#version = version;
   }
-
-  /** Hears of bytes while the module loads, and of `null` once it is ready or has failed. */
-  onload = () => {};
-  /** It has failed, and what it made is lost. */
-  onfail = () => {};
 
   /** The Response to a request of the page; `body` is an ArrayBuffer for a POST. */
   async ask(target, body) {
@@ -43,19 +41,19 @@ export class Module {
   }
 
   #hear({ loaded, ready, failed, status, type, bytes }) {
-    if (loaded) return this.onload(loaded);
+    if (loaded) return this.emit("load", loaded);
     if (failed) return this.#fail(failed);
     if (!ready) return this.#waiting.shift().resolve(new Response(bytes, { status, headers: { "Content-Type": type } }));
     if (ready !== this.#version) return this.#fail(texts.offline.version(ready, this.#version));
-    this.onload(null);
+    this.emit("load", null);
     this.#waiting.shift().resolve();
   }
 
   #fail(why) {
-    this.onload(null);
+    this.emit("load", null);
     this.#worker.terminate();
     this.#worker = null;
     for (const { reject } of this.#waiting.splice(0)) reject(new ModuleFailure(why));
-    this.onfail();
+    this.emit("fail");
   }
 }

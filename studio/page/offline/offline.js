@@ -27,10 +27,10 @@ export class Offline {
     this.#files = [...about.files, LOADED];
     this.#library = about.library?.id;
     const total = about.compiler.bytes;
-    this.#module.onload = (bytes) => {
+    this.#module.on("load", (bytes) => {
       find("opening").textContent = bytes === null ? "" : texts.offline.loading(bytes / 1e6, total / 1e6);
-    };
-    this.#module.onfail = () => this.#known.clear();
+    });
+    this.#module.on("fail", () => this.#known.clear());
   }
 
   /** Hears of what was answered: textures that files describe are given to the module once it needs them. */

@@ -4,7 +4,7 @@ import { announce, element, recall, remember } from "../dom.js";
 import { texts } from "../texts.js";
 import { BANDS, MOST_DB } from "./equaliser.js";
 import { Response } from "./response.js";
-import { tonesButton } from "./tones-button.js";
+import { tonesButton } from "./tones.js";
 
 const own = texts.output;
 const FLAT = BANDS.map(() => 0);

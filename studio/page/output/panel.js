@@ -4,7 +4,7 @@ import { element, find } from "../dom.js";
 import { texts } from "../texts.js";
 import { startEqualiser } from "./equaliser-panel.js";
 import { CHANNELS, HIGH_HZ, LOW_HZ, MODES, SHIFT_HZ } from "./modes.js";
-import { startMotors } from "./motors-panel.js";
+import { startMotors } from "./motors.js";
 import { CHANNEL_S, testChannels } from "./tones.js";
 
 const own = texts.output;
@@ -59,7 +59,7 @@ export function startOutput({ sound, setLevel }) {
     setLevel(sound.level_db);
     show();
   });
-  sound.onstate.push(show);
+  sound.on("state", show);
   find("output").replaceChildren(
     element("div", { class: "choice" }, element("label", { for: "mode" }, own.mode), select), text, test.group,
     startEqualiser(sound), startMotors(sound));

@@ -88,12 +88,8 @@ export function axes(ctx, figure, x, y, { area, right = GAP_PX + 4, grid = true,
   ctx.stroke();
   if (frame) {
     ctx.strokeStyle = palette.muted;
-    ctx.strokeRect(
-      box.left + 0.5,
-      Math.round(box.top) + 0.5,
-      Math.round(box.right - box.left) - 1,
-      Math.round(box.bottom - box.top) - 1,
-    );
+    const [width, height] = [box.right - box.left, box.bottom - box.top].map(Math.round);
+    ctx.strokeRect(box.left + 0.5, Math.round(box.top) + 0.5, width - 1, height - 1);
   }
   ctx.fillStyle = palette.ink;
   if (x.title) {

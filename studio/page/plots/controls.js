@@ -1,7 +1,6 @@
 // The controls of the strip: freeze, scroll, save.
 
-import { save } from "../save.js";
-import { element } from "./figure.js";
+import { busily, element, save } from "../dom.js";
 
 /** Ticks copied at once, a megabyte. */
 const PART_TICKS = 20_000;
@@ -11,37 +10,18 @@ export class Controls {
   constructor(scope, texts, { freeze, scrolled }) {
     this.scope = scope;
     this.texts = texts;
-    this.button = element("button", "plot-button");
-    this.button.type = "button";
-    this.button.addEventListener("click", () => freeze(!scope.frozen));
-    this.slider = element("input", "plot-slider");
-    this.slider.type = "range";
-    this.slider.step = "any";
-    this.slider.setAttribute("aria-label", texts.scroll);
-    this.slider.addEventListener("input", () => {
+    this.button = element("button", { type: "button", class: "plot-button", onclick: () => freeze(!scope.frozen) });
+    this.slider = element("input", { type: "range", class: "plot-slider", step: "any", "aria-label": texts.scroll, oninput: () => {
       scope.scroll(Number(this.slider.value) * scope.tick_hz);
       scrolled();
-    });
-    const saving = (label, name, table) => {
-      const button = element("button", "plot-button", label);
-      button.type = "button";
-      button.addEventListener("click", async () => {
-        // Not disabled, which would take the focus away.
-        if (button.getAttribute("aria-busy") === "true") return;
-        button.setAttribute("aria-busy", "true");
-        try {
-          save(name, await written(table, scope));
-        } finally {
-          button.removeAttribute("aria-busy");
-        }
-      });
-      return button;
-    };
+    } });
+    const saving = (label, name, table) => element("button", { type: "button", class: "plot-button",
+      onclick: ({ currentTarget }) => busily(currentTarget, async () => save(name, await written(table, scope))) }, label);
     this.saves = [
       saving(texts.save, texts.file, "rendered"),
       saving(texts.save_trajectory, texts.trajectory_file, "trajectory"),
     ];
-    this.element = element("div", "plot-controls", this.button, this.slider, ...this.saves);
+    this.element = element("div", { class: "plot-controls" }, this.button, this.slider, ...this.saves);
     this.update();
   }
 
@@ -59,7 +39,7 @@ export class Controls {
 
 /** A table as a Blob, written by a worker: half a million rows would hold the page up for seconds. */
 function written(table, { ring, tick_hz }) {
-  const worker = new Worker(new URL("csv-worker.js", import.meta.url), { type: "module" });
+  const worker = new Worker(new URL("csv.js", import.meta.url), { type: "module" });
   return new Promise((done, failed) => {
     worker.onmessage = ({ data }) => done(data);
     worker.onerror = ({ message }) => failed(new Error(message));

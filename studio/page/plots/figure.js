@@ -1,59 +1,41 @@
 // A figure: a caption with a readout, a canvas that is sharp on every display, and a legend in HTML.
 
+import { element } from "../dom.js";
+
 /** Least time between two texts of a readout, s: faster, nobody can read them. */
 const READOUT_S = 0.2;
 
-export function element(tag, className, ...children) {
-  const made = document.createElement(tag);
-  if (className) made.className = className;
-  made.append(...children);
-  return made;
-}
-
 export class Figure {
+  layers = new Map();
+  width = 0;
+  height = 0;
+  visible = false;
+  dirty = true;
+  described = false;
+  drawn_s = -Infinity;
+  described_s = 0;
+  read_s = -Infinity;
+  least_s = 0;
+
   /** `texts` has `title`, `hint`; `legend` maps classes of swatches to texts. */
   constructor(stage, name, texts, legend = {}) {
     this.stage = stage;
     this.title = texts.title;
-    this.canvas = element("canvas", `plot-canvas plot-canvas-${name}`);
-    this.canvas.setAttribute("role", "img");
-    this.canvas.setAttribute("aria-label", texts.title);
-    this.canvas.tabIndex = 0;
-    this.canvas.addEventListener("focus", () => this.describe());
-    this.canvas.addEventListener("keydown", (event) => {
-      if (event.key !== "Enter") return;
-      event.preventDefault();
-      stage.announce(this.summary());
-    });
-    this.readout = element("span", "plot-readout");
-    const caption = element("figcaption", "plot-caption", element("span", "plot-title", texts.title), this.readout);
-    const items = Object.entries(legend).map(([swatch, text]) => {
-      const mark = element("span", `plot-swatch plot-swatch-${swatch}`);
-      mark.setAttribute("aria-hidden", "true");
-      return element("li", "", mark, text);
-    });
-    this.legend = element("ul", "plot-legend", ...items);
-    this.element = element("figure", `plot plot-${name}`, caption, this.canvas);
-    if (items.length > 0) this.element.append(this.legend);
-    if (texts.hint) {
-      const hint = element("p", "plot-unseen", texts.hint);
-      hint.id = `plot-hint-${name}`;
-      this.canvas.setAttribute("aria-describedby", hint.id);
-      this.element.append(hint);
-    }
+    const hint = texts.hint && `plot-hint-${name}`;
+    this.canvas = element("canvas", { class: `plot-canvas plot-canvas-${name}`, role: "img", "aria-label": texts.title, tabindex: 0,
+      "aria-describedby": hint, onfocus: () => this.describe(), onkeydown: (event) => {
+        if (event.key !== "Enter") return;
+        event.preventDefault();
+        stage.announce(this.summary());
+      } });
+    this.readout = element("span", { class: "plot-readout" });
+    const items = Object.entries(legend).map(([swatch, text]) =>
+      element("li", {}, element("span", { class: `plot-swatch plot-swatch-${swatch}`, "aria-hidden": "true" }), text));
+    this.element = element("figure", { class: `plot plot-${name}` },
+      element("figcaption", { class: "plot-caption" }, element("span", { class: "plot-title" }, texts.title), this.readout), this.canvas,
+      ...(items.length > 0 ? [element("ul", { class: "plot-legend" }, ...items)] : []),
+      ...(hint ? [element("p", { class: "unseen", id: hint }, texts.hint)] : []));
     this.ctx = this.canvas.getContext("2d");
-    this.layers = new Map();
-    Object.assign(this, {
-      width: 0,
-      height: 0,
-      visible: false,
-      dirty: true,
-      described: false,
-      drawn_s: -Infinity,
-      described_s: 0,
-      read_s: -Infinity,
-      least_s: 0,
-    });
     stage.add(this);
   }
 

@@ -32,10 +32,7 @@ export class Force extends Figure {
     for (let tick = step * Math.ceil(from / step); tick < to; tick += step)
       dots.push(columns.map((column) => ring.at(tick, column)));
     const reach = ([x, y, z]) => Math.max(Math.abs(x), Math.abs(y), z / 1.5, -2 * z);
-    const end = this.span.follow(
-      dots.reduce((most, dot) => Math.max(most, reach(dot)), reach(mean)),
-      now_s,
-    );
+    const end = this.span.follow(dots.reduce((most, dot) => Math.max(most, reach(dot)), reach(mean)), now_s);
     const limit_n = inspect?.gains.f_max_n;
     const [top, side] = this.layer(ctx, "axes", `${end}|${limit_n}`, (on) => this.#axes(on, end, limit_n));
     this.#arrow(ctx, top, dots, mean, 1);
@@ -48,21 +45,10 @@ export class Force extends Figure {
     const half = (this.width - BETWEEN_PX) / 2;
     const area = (left) => ({ left, top: 0, right: left + half, bottom: this.height });
     const across = { low: -end, high: end, title: this.texts.x_axis };
-    const top = axes(
-      ctx,
-      this,
-      across,
-      { low: -end, high: end, title: this.texts.y_axis },
-      { area: area(0), equal: true },
-    );
+    const top = axes(ctx, this, across, { low: -end, high: end, title: this.texts.y_axis }, { area: area(0), equal: true });
     // As long as the other one, from half below the surface on: the wall pushes upwards.
-    const side = axes(
-      ctx,
-      this,
-      across,
-      { low: -0.5 * end, high: 1.5 * end, title: this.texts.z_axis },
-      { area: area(half + BETWEEN_PX), equal: true },
-    );
+    const side = axes(ctx, this, across, { low: -0.5 * end, high: 1.5 * end, title: this.texts.z_axis },
+      { area: area(half + BETWEEN_PX), equal: true });
     const { palette } = this.stage;
     ctx.strokeStyle = palette.muted;
     for (const { box, x, y } of [top, side]) {

@@ -53,12 +53,8 @@ export class Friction extends Figure {
   }
 
   #axes(ctx, normal_n, tangential_n, [least_mu, most_mu]) {
-    const placed = axes(
-      ctx,
-      this,
-      { low: 0, high: normal_n, title: this.texts.normal_axis },
-      { low: 0, high: tangential_n, title: this.texts.friction_axis },
-    );
+    const placed = axes(ctx, this, { low: 0, high: normal_n, title: this.texts.normal_axis },
+      { low: 0, high: tangential_n, title: this.texts.friction_axis });
     const { box, x, y } = placed;
     const { palette } = this.stage;
     if (!(most_mu > 0)) return placed;

@@ -37,11 +37,11 @@ export class PlanePointer {
 
   #point({ offsetX, offsetY }) {
     const { placed, scope } = this.plane;
-    if (!placed || !scope.levels) return;
+    if (!placed || !scope.models) return;
     const { box, x, y } = placed;
-    const { grid } = scope.levels;
+    const { models } = scope;
     let [vertex, nearest] = [null, NEAR_PX];
-    grid.vertices.forEach(({ speed_mm_s, force_n }, n) => {
+    models.vertices.forEach(({ speed_mm_s, force_n }, n) => {
       const away = Math.hypot(x(speed_mm_s) - offsetX, y(force_n) - offsetY);
       if (away < nearest) [vertex, nearest] = [n, away];
     });
@@ -49,25 +49,25 @@ export class PlanePointer {
     if (offsetX < box.left || offsetX > box.right || offsetY < box.top || offsetY > box.bottom) return this.leave();
     const share = (offset, from, to) => (offset - from) / (to - from);
     this.#choose({
-      speed_mm_s: share(offsetX, box.left, box.right) * grid.max_speed_mm_s,
-      force_n: share(offsetY, box.bottom, box.top) * grid.max_force_n,
+      speed_mm_s: share(offsetX, box.left, box.right) * models.max_speed_mm_s,
+      force_n: share(offsetY, box.bottom, box.top) * models.max_force_n,
     });
   }
 
   #vertex(vertex) {
-    const { speed_mm_s, force_n } = this.plane.scope.levels.grid.vertices[vertex];
+    const { speed_mm_s, force_n } = this.plane.scope.models.vertices[vertex];
     return { speed_mm_s, force_n, vertex };
   }
 
   #key(event) {
     const { scope } = this.plane;
-    if (!scope.levels) return;
+    if (!scope.models) return;
     if (event.key === "Escape") return this.leave();
-    const { grid } = scope.levels;
+    const { models } = scope;
     if (event.key === "PageUp" || event.key === "PageDown") {
       event.preventDefault();
       // From model to model, in the order of the asset.
-      const count = grid.vertices.length;
+      const count = models.vertices.length;
       const before = scope.chosen?.vertex ?? (event.key === "PageDown" ? -1 : count);
       return this.#choose(this.#vertex((before + (event.key === "PageDown" ? 1 : -1) + count) % count));
     }
@@ -76,10 +76,9 @@ export class PlanePointer {
     event.preventDefault();
     const step = event.shiftKey ? COARSE : FINE;
     const from = scope.chosen ?? (scope.hand?.touches ? scope.hand : STROKE);
-    const [speed_mm_s, force_n] = grid.nearest(
-      from.speed_mm_s + direction[0] * step * grid.max_speed_mm_s,
-      from.force_n + direction[1] * step * grid.max_force_n,
-    );
-    this.#choose({ speed_mm_s, force_n });
+    this.#choose(models.nearest({
+      speed_mm_s: from.speed_mm_s + direction[0] * step * models.max_speed_mm_s,
+      force_n: from.force_n + direction[1] * step * models.max_force_n,
+    }));
   }
 }

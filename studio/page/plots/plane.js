@@ -2,11 +2,10 @@
 // is mixed from, and the hand itself.
 
 import { axes, clipped } from "./axes.js";
-import { contour } from "./contour.js";
 import { Figure } from "./figure.js";
-import { fieldPicture, colourBar } from "./field.js";
-import { FLOOR_HZ } from "./level.js";
-import { COLUMN, FLAG } from "./ring.js";
+import { colourBar, contour, fieldPicture } from "./field.js";
+import { FLOOR_HZ } from "./models.js";
+import { FLAG } from "./ring.js";
 import { PlanePointer } from "./plane-pointer.js";
 
 const TRAIL_S = 1.5;
@@ -20,6 +19,16 @@ const CONTOUR_DB = 5;
 /** What is drawn on the field shows on every colour of it in this pair. */
 const [LIGHT, DARK] = ["#fff", "rgb(0 0 0 / 75%)"];
 
+/** Strokes the path in a dark colour and, narrower, in a light one: [colour, width] each. */
+function strokeTwice(ctx, ...strokes) {
+  for (const [colour, width] of strokes) {
+    ctx.strokeStyle = colour;
+    ctx.lineWidth = width;
+    ctx.stroke();
+  }
+  ctx.lineWidth = 1;
+}
+
 export class Plane extends Figure {
   constructor(stage, scope, texts, chosen) {
     const contour = texts.legend.contour({ every_db: CONTOUR_DB, floor_hz: FLOOR_HZ });
@@ -31,19 +40,13 @@ export class Plane extends Figure {
   }
 
   draw(ctx, now_s) {
-    const { levels } = this.scope;
-    if (!levels) {
-      this.read(() => "", now_s);
-      return;
-    }
-    const { grid } = levels;
-    const key = `${this.version}|${levels.isComplete}`;
-    this.placed = this.layer(ctx, "field", key, (on) => this.#field(on, levels));
+    const { hand, chosen, models } = this.scope;
+    if (!models) return this.read(() => "", now_s);
+    this.placed = this.layer(ctx, "field", `${this.version}`, (on) => this.#field(on, models));
     const { box, x, y } = this.placed;
-    this.#trail(ctx, grid);
-    const { hand, chosen } = this.scope;
+    this.#trail(ctx);
     if (chosen) this.#cross(ctx, box, x(chosen.speed_mm_s), y(chosen.force_n));
-    if (hand) this.#hand(ctx, grid, hand);
+    if (hand) this.#hand(ctx, models, hand);
     this.read(() => this.#text(), now_s);
   }
 
@@ -54,44 +57,33 @@ export class Plane extends Figure {
     this.invalidate();
   }
 
-  #field(ctx, levels) {
-    const { grid } = levels;
+  #field(ctx, models) {
     const { palette } = this.stage;
-    const placed = axes(
-      ctx,
-      this,
-      { low: 0, high: grid.max_speed_mm_s, title: this.texts.speed_axis },
-      { low: 0, high: grid.max_force_n, title: this.texts.force_axis },
-      { right: RIGHT_PX, grid: false, frame: false },
-    );
+    const placed = axes(ctx, this, { low: 0, high: models.max_speed_mm_s, title: this.texts.speed_axis },
+      { low: 0, high: models.max_force_n, title: this.texts.force_axis }, { right: RIGHT_PX, grid: false, frame: false });
     const { box } = placed;
-    if (levels.isComplete) {
-      const picture = fieldPicture(
-        levels,
-        Math.ceil((box.right - box.left) / 2),
-        Math.ceil((box.bottom - box.top) / 2),
-      );
-      ctx.imageSmoothingQuality = "high";
-      ctx.drawImage(picture, box.left, box.top, box.right - box.left, box.bottom - box.top);
-      clipped(ctx, box, () => this.#contours(ctx, levels, placed));
-      colourBar(ctx, palette, levels, box, CONTOUR_DB);
-      ctx.fillStyle = palette.ink;
-      ctx.textAlign = "right";
-      ctx.fillText(this.texts.level_axis, this.width, box.top - 10);
-    }
-    this.#mesh(ctx, grid, placed);
+    const [width, height] = [box.right - box.left, box.bottom - box.top];
+    const picture = fieldPicture(models, Math.ceil(width / 2), Math.ceil(height / 2));
+    ctx.imageSmoothingQuality = "high";
+    ctx.drawImage(picture, box.left, box.top, width, height);
+    clipped(ctx, box, () => this.#contours(ctx, models, placed));
+    colourBar(ctx, palette, models, box, CONTOUR_DB);
+    ctx.fillStyle = palette.ink;
+    ctx.textAlign = "right";
+    ctx.fillText(this.texts.level_axis, this.width, box.top - 10);
+    this.#mesh(ctx, models, placed);
     ctx.strokeStyle = palette.ink;
     ctx.lineWidth = 1.5;
-    ctx.strokeRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
+    ctx.strokeRect(box.left, box.top, width, height);
     return placed;
   }
 
-  #contours(ctx, levels, { box }) {
-    const across = (box.right - box.left) / (levels.columns - 1);
-    const down = (box.bottom - box.top) / (levels.rows - 1);
+  #contours(ctx, models, { box }) {
+    const across = (box.right - box.left) / (models.columns - 1);
+    const down = (box.bottom - box.top) / (models.rows - 1);
     ctx.beginPath();
-    for (let db = levels.low_db + CONTOUR_DB; db < levels.high_db; db += CONTOUR_DB) {
-      for (const [x0, y0, x1, y1] of contour(levels.rms_m_s2, levels.columns, 10 ** (db / 20))) {
+    for (let db = models.low_db + CONTOUR_DB; db < models.high_db; db += CONTOUR_DB) {
+      for (const [x0, y0, x1, y1] of contour(models.rms_m_s2, models.columns, 10 ** (db / 20))) {
         ctx.moveTo(box.left + across * x0, box.bottom - down * y0);
         ctx.lineTo(box.left + across * x1, box.bottom - down * y1);
       }
@@ -100,11 +92,11 @@ export class Plane extends Figure {
     ctx.stroke();
   }
 
-  #mesh(ctx, grid, { x, y }) {
-    const at = (vertex) => [x(grid.vertices[vertex].speed_mm_s), y(grid.vertices[vertex].force_n)];
+  #mesh(ctx, { vertices, triangles }, { x, y }) {
+    const at = (vertex) => [x(vertices[vertex].speed_mm_s), y(vertices[vertex].force_n)];
     ctx.beginPath();
     const drawn = new Set();
-    for (const triangle of grid.triangles) {
+    for (const triangle of triangles) {
       triangle.forEach((from, n) => {
         const to = triangle[(n + 1) % 3];
         const key = from < to ? `${from} ${to}` : `${to} ${from}`;
@@ -114,13 +106,8 @@ export class Plane extends Figure {
         ctx.lineTo(...at(to));
       });
     }
-    ctx.strokeStyle = "rgb(0 0 0 / 30%)";
-    ctx.lineWidth = 2.5;
-    ctx.stroke();
-    ctx.strokeStyle = "rgb(255 255 255 / 80%)";
-    ctx.lineWidth = 1;
-    ctx.stroke();
-    for (const [vertex, { kind }] of grid.vertices.entries()) {
+    strokeTwice(ctx, ["rgb(0 0 0 / 30%)", 2.5], ["rgb(255 255 255 / 80%)", 1]);
+    for (const [vertex, { kind }] of vertices.entries()) {
       const [px, py] = at(vertex);
       const inner = kind === "interior";
       ctx.beginPath();
@@ -133,7 +120,7 @@ export class Plane extends Figure {
   }
 
   /** Where the hand was, fainter the longer ago. */
-  #trail(ctx, grid) {
+  #trail(ctx) {
     const { ring, now } = this.scope;
     const step = Math.max(1, this.scope.ticks(STEP_S));
     const [from, to] = ring.kept(now - this.scope.ticks(TRAIL_S), now);
@@ -141,9 +128,7 @@ export class Plane extends Figure {
     // Points stay where they are while time passes: they lie on multiples of the step.
     for (let tick = step * Math.ceil(from / step); tick < to; tick += step) {
       const touches = (ring.flagsAt(tick) & FLAG.contact) !== 0;
-      points.push(
-        touches ? this.#at(grid, ring.at(tick, COLUMN.speed_mm_s), ring.at(tick, COLUMN.normal_force_n)) : null,
-      );
+      points.push(touches ? this.#at(ring.query(tick)) : null);
     }
     for (let fade = 0; fade < FADES; fade++) {
       ctx.beginPath();
@@ -154,39 +139,26 @@ export class Plane extends Figure {
         ctx.lineTo(...points[n + 1]);
       }
       const strength = (fade + 1) / FADES;
-      ctx.strokeStyle = `rgb(0 0 0 / ${70 * strength}%)`;
-      ctx.lineWidth = 4;
-      ctx.stroke();
-      ctx.strokeStyle = `rgb(255 255 255 / ${100 * strength}%)`;
-      ctx.lineWidth = 2;
-      ctx.stroke();
+      strokeTwice(ctx, [`rgb(0 0 0 / ${70 * strength}%)`, 4], [`rgb(255 255 255 / ${100 * strength}%)`, 2]);
     }
-    ctx.lineWidth = 1;
   }
 
-  #at(grid, speed_mm_s, force_n) {
-    const [speed, force] = grid.nearest(speed_mm_s, force_n);
-    return [this.placed.x(speed), this.placed.y(force)];
+  #at(query) {
+    const { speed_mm_s, force_n } = this.scope.models.nearest(query);
+    return [this.placed.x(speed_mm_s), this.placed.y(force_n)];
   }
 
-  #hand(ctx, grid, { speed_mm_s, force_n, touches }) {
+  #hand(ctx, models, hand) {
     const { palette } = this.stage;
-    const [px, py] = this.#at(grid, speed_mm_s, force_n);
-    if (touches && grid.isOutside(speed_mm_s, force_n)) {
-      if (speed_mm_s > grid.max_speed_mm_s) this.#arrow(ctx, px, py, 1, 0);
-      if (force_n > grid.max_force_n) this.#arrow(ctx, px, py, 0, -1);
-    }
+    const { touches } = hand;
+    const [px, py] = this.#at(hand);
+    if (touches && hand.speed_mm_s > models.max_speed_mm_s) this.#arrow(ctx, px, py, 1, 0);
+    if (touches && hand.force_n > models.max_force_n) this.#arrow(ctx, px, py, 0, -1);
     ctx.beginPath();
     ctx.arc(px, py, 7, 0, 2 * Math.PI);
     ctx.fillStyle = touches ? palette.accent : palette.paper;
     ctx.fill();
-    ctx.strokeStyle = "#000";
-    ctx.lineWidth = 4;
-    ctx.stroke();
-    ctx.strokeStyle = "#fff";
-    ctx.lineWidth = 2;
-    ctx.stroke();
-    ctx.lineWidth = 1;
+    strokeTwice(ctx, ["#000", 4], ["#fff", 2]);
   }
 
   /** An arrow out of the plane: the hand is beyond, and the edge model at its foot answers. */
@@ -202,54 +174,34 @@ export class Plane extends Figure {
   }
 
   #cross(ctx, box, px, py) {
-    const lines = () => {
-      ctx.beginPath();
-      ctx.moveTo(px, box.top);
-      ctx.lineTo(px, box.bottom);
-      ctx.moveTo(box.left, py);
-      ctx.lineTo(box.right, py);
-      ctx.stroke();
-      ctx.beginPath();
-      ctx.arc(px, py, 6, 0, 2 * Math.PI);
-      ctx.stroke();
-    };
-    ctx.strokeStyle = "#000";
-    ctx.lineWidth = 3;
-    lines();
-    ctx.strokeStyle = "#fff";
-    ctx.lineWidth = 1;
-    lines();
+    ctx.beginPath();
+    ctx.moveTo(px, box.top);
+    ctx.lineTo(px, box.bottom);
+    ctx.moveTo(box.left, py);
+    ctx.lineTo(box.right, py);
+    ctx.moveTo(px + 6, py);
+    ctx.arc(px, py, 6, 0, 2 * Math.PI);
+    strokeTwice(ctx, ["#000", 3], ["#fff", 1]);
   }
 
   #text() {
-    const { levels, hand, chosen } = this.scope;
+    const { models, hand, chosen } = this.scope;
     if (chosen) return this.texts.chosen(this.#facts(chosen));
     if (!hand) return this.texts.no_hand;
     if (!hand.touches) return this.texts.lifted(hand);
-    const outside = levels.grid.isOutside(hand.speed_mm_s, hand.force_n);
-    return this.texts.hand({ ...this.#facts(hand), outside });
+    return this.texts.hand({ ...this.#facts(hand), outside: models.isOutside(hand) });
   }
 
   #facts({ speed_mm_s, force_n, vertex }) {
-    const { levels } = this.scope;
-    const kind = vertex === undefined || vertex === null ? null : levels.grid.vertices[vertex].kind;
-    return { speed_mm_s, force_n, level_db: levels.level_db(speed_mm_s, force_n), kind };
+    const { models } = this.scope;
+    return { speed_mm_s, force_n, level_db: models.level_db({ speed_mm_s, force_n }), kind: models.vertices[vertex]?.kind };
   }
 
   summary() {
-    const { levels } = this.scope;
-    if (!levels) return `${this.title}. ${this.texts.no_texture}`;
-    const { grid } = levels;
-    const interior = grid.vertices.filter(({ kind }) => kind === "interior").length;
-    const about = this.texts.about({
-      max_speed_mm_s: grid.max_speed_mm_s,
-      max_force_n: grid.max_force_n,
-      interior,
-      edge: grid.vertices.length - interior,
-      triangles: grid.triangles.length,
-      low_db: levels.low_db,
-      high_db: levels.high_db,
-    });
+    const { models } = this.scope;
+    if (!models) return `${this.title}. ${this.texts.no_texture}`;
+    const interior = models.vertices.filter(({ kind }) => kind === "interior").length;
+    const about = this.texts.about(models, { interior, edge: models.vertices.length - interior });
     return [this.title, this.#text(), about].join(". ");
   }
 }

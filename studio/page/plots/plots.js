@@ -1,40 +1,30 @@
 // The live plots of the studio, mounted by one call.
 
+import { element } from "../dom.js";
 import { Controls } from "./controls.js";
-import { renderedCsv, trajectoryCsv } from "./csv.js";
-import { element } from "./figure.js";
 import { Force } from "./force.js";
 import { Friction } from "./friction.js";
+import { Models } from "./models.js";
 import { Plane } from "./plane.js";
 import { Scope } from "./scope.js";
 import { Spectrum } from "./spectrum.js";
 import { Stage } from "./stage.js";
 import { Strip } from "./strip.js";
-import { texts as english } from "./texts.js";
 import { Waveform } from "./waveform.js";
 
 /** Ticks of the worklet, a second. */
 const TICK_HZ = 16000;
-/** What can be scrolled back to and saved, s. */
-const HISTORY_S = 30;
-/** Time of a frame that sampling the levels of a new texture may take, ms. */
-const LEVELS_MS = 6;
 
 /**
- * Mounts the plots into `container`; `texts` as in `texts.js`. Returns
+ * Mounts the plots into `container`; `texts` as in `texts.js`, `runtime` promises the exports of `asperity.wasm`. Returns
  *
- *   setTexture(inspect)   the JSON of `asperity inspect --json`, or null
- *   addTicks(message)     a `ticks` message of the worklet
- *   freeze(on)            whether new ticks are left out, so that the old ones can be looked at
- *   csv(), trajectory()   the ticks kept, as `asperity render` writes and reads them
- *   clear()               forgets all ticks
- *   destroy()
- *
- * The page links `plots.css`.
+ *   begin(tick_hz)               forgets all ticks; those of another rate follow
+ *   setTexture(inspect, asset)   the JSON of `asperity inspect --json`, and the asset for the worklet; or null
+ *   addTicks(message)            a `ticks` message of the worklet
  */
-export function mountPlots(container, texts = english, { tick_hz = TICK_HZ, history_s = HISTORY_S } = {}) {
-  const scope = new Scope(tick_hz, history_s);
-  const root = element("div", "plots");
+export function mountPlots(container, runtime, texts) {
+  const scope = new Scope(TICK_HZ);
+  const root = element("div", { class: "plots" });
   container.append(root);
   let figures = [];
   const live = () => {
@@ -42,15 +32,9 @@ export function mountPlots(container, texts = english, { tick_hz = TICK_HZ, hist
   };
 
   const stage = new Stage(root, (now_s) => {
-    let goes_on = false;
-    const { levels } = scope;
-    if (levels && !levels.isComplete && plane.isDrawable) {
-      goes_on = !levels.advance(performance.now() + LEVELS_MS, () => performance.now());
-      if (!goes_on) plane.dirty = true;
-    }
-    const moment = scope.advance(now_s);
-    if (moment.moved) live();
-    return goes_on || moment.goes_on;
+    const { moved, goes_on } = scope.advance(now_s);
+    if (moved) live();
+    return goes_on;
   });
 
   const showMoment = () => {
@@ -74,19 +58,19 @@ export function mountPlots(container, texts = english, { tick_hz = TICK_HZ, hist
   const controls = new Controls(scope, texts.controls, { freeze, scrolled: showMoment });
   strip.element.append(controls.element);
   figures = [plane, spectrum, waveform, force, friction, strip];
-  const board = element(
-    "div",
-    "plot-board",
-    plane.element,
-    element("div", "plot-stack", spectrum.element, waveform.element),
-    element("div", "plot-pair", force.element, friction.element),
-    strip.element,
-  );
-  root.append(board);
+  root.append(element("div", { class: "plot-board" }, plane.element,
+    element("div", { class: "plot-stack" }, spectrum.element, waveform.element),
+    element("div", { class: "plot-pair" }, force.element, friction.element), strip.element));
 
   return {
-    setTexture(inspect) {
-      scope.setTexture(inspect);
+    begin(tick_hz) {
+      scope.begin(tick_hz);
+      spectrum.renew();
+      showMoment();
+    },
+    async setTexture(inspect, asset) {
+      const loaded = await runtime;
+      scope.setTexture(inspect, inspect && new Models(loaded, asset, inspect.ar));
       plane.renew();
       spectrum.renew();
       stage.redrawAll();
@@ -96,21 +80,6 @@ export function mountPlots(container, texts = english, { tick_hz = TICK_HZ, hist
       scope.add(message);
       if (began) controls.update();
       stage.request();
-    },
-    freeze,
-    clear() {
-      scope.ring.clear();
-      showMoment();
-    },
-    csv: () => renderedCsv(scope.ring, tick_hz),
-    trajectory: () => trajectoryCsv(scope.ring, tick_hz),
-    /** What the plots cost: time of the last frame, memory of the ticks. */
-    get costs() {
-      return { frame_ms: stage.frame_ms, ring_bytes: scope.ring.bytes };
-    },
-    destroy() {
-      stage.destroy();
-      root.remove();
     },
   };
 }

@@ -4,17 +4,7 @@
 // has one row a tick. Least and greatest values of blocks of ticks are kept for long views.
 
 /** What a tick's nine numbers are, in the order of the worklet and of `asperity render`. */
-export const COLUMNS = [
-  "depth_mm",
-  "speed_mm_s",
-  "normal_force_n",
-  "vib_m_s2",
-  "tap_n",
-  "friction_n",
-  "fx_n",
-  "fy_n",
-  "fz_n",
-];
+export const COLUMNS = ["depth_mm", "speed_mm_s", "normal_force_n", "vib_m_s2", "tap_n", "friction_n", "fx_n", "fy_n", "fz_n"];
 export const WIDTH = COLUMNS.length;
 export const COLUMN = Object.fromEntries(COLUMNS.map((name, k) => [name, k]));
 /** The bits of `flags` that are looked at (`runtime/src/events.rs`). */
@@ -38,11 +28,6 @@ export class Ring {
     this.end = 0;
   }
 
-  get bytes() {
-    const arrays = [this.columns, this.positions_mm, this.flags, this.least, this.greatest];
-    return arrays.reduce((sum, array) => sum + array.byteLength, 0);
-  }
-
   /** Copies ticks from a kept one on, `most` of them or up to where the arrays begin again, as a message for `add`. */
   part(from, most) {
     const slot = from % this.capacity;
@@ -55,10 +40,6 @@ export class Ring {
       columns: cut(this.columns, WIDTH),
       flags: cut(this.flags, 1),
     };
-  }
-
-  clear() {
-    this.first = this.end;
   }
 
   /** Takes a `ticks` message of the worklet. Returns whether a new run begins. */
@@ -106,6 +87,11 @@ export class Ring {
   /** A number of a tick that is kept. */
   at(tick, column) {
     return this.columns[WIDTH * (tick % this.capacity) + column];
+  }
+
+  /** Speed and force of a tick, for which a model is asked. */
+  query(tick) {
+    return { speed_mm_s: this.at(tick, COLUMN.speed_mm_s), force_n: this.at(tick, COLUMN.normal_force_n) };
   }
 
   flagsAt(tick) {

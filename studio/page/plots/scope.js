@@ -1,25 +1,67 @@
 // What all figures look at: the kept ticks, the moment that is shown, the texture, a chosen point.
 
-import { levelsOf } from "./levels.js";
-import { Playhead } from "./playhead.js";
 import { COLUMN, FLAG, Ring } from "./ring.js";
 
-export class Scope {
-  constructor(tick_hz, history_s) {
+// Messages bring a tenth of a second at once; the playhead runs through them at the pace of the clock, so that nothing jumps.
+/** How far it keeps behind the newest tick, s: a message, and some jitter. */
+const LAG_S = 0.13;
+/** Farther behind, it jumps, s. */
+const FARTHEST_S = 0.5;
+/** Change of pace for each second that the lag is off. */
+const CORRECTION = 2;
+
+export class Playhead {
+  constructor(tick_hz) {
     this.tick_hz = tick_hz;
-    this.ring = new Ring(history_s * tick_hz);
-    this.playhead = new Playhead(tick_hz);
-    this.frozen = false;
-    this.inspect = null;
-    this.levels = null;
-    /** { speed_mm_s, force_n, vertex } that pointer or keys chose in the plane. */
-    this.chosen = null;
+    this.tick = 0;
+    this.clock_s = undefined;
   }
 
-  setTexture(inspect) {
-    this.inspect = inspect;
-    this.levels = inspect ? levelsOf(inspect) : null;
-    this.chosen = null;
+  /** Goes to a tick at once. */
+  jump(tick) {
+    this.tick = tick;
+  }
+
+  /** The tick to show at `now_s` of ticks `[first, end)`; it stops at the newest one. */
+  advance(now_s, first, end) {
+    const passed_s = this.clock_s === undefined ? 0 : Math.max(0, now_s - this.clock_s);
+    this.clock_s = now_s;
+    const lag_s = (end - this.tick) / this.tick_hz;
+    if (lag_s > FARTHEST_S || lag_s < 0) {
+      this.tick = end - LAG_S * this.tick_hz;
+    } else {
+      const pace = Math.max(0.5, 1 + CORRECTION * (lag_s - LAG_S));
+      this.tick += passed_s * this.tick_hz * pace;
+    }
+    this.tick = Math.min(Math.max(this.tick, first), end);
+    return this.tick;
+  }
+}
+
+/** What can be scrolled back to and saved, s. */
+const HISTORY_S = 30;
+
+export class Scope {
+  inspect = null;
+  /** The `Models` of the texture. */
+  models = null;
+  /** { speed_mm_s, force_n, vertex } that pointer or keys chose in the plane. */
+  chosen = null;
+
+  constructor(tick_hz) {
+    this.begin(tick_hz);
+  }
+
+  /** Forgets all ticks; those of another rate follow. */
+  begin(tick_hz) {
+    this.tick_hz = tick_hz;
+    this.ring = new Ring(HISTORY_S * tick_hz);
+    this.playhead = new Playhead(tick_hz);
+    this.frozen = false;
+  }
+
+  setTexture(inspect, models) {
+    Object.assign(this, { inspect, models, chosen: null });
   }
 
   /** The tick after the last one shown. */
@@ -59,11 +101,7 @@ export class Scope {
   get hand() {
     const tick = this.now - 1;
     if (!this.ring.has(tick)) return null;
-    return {
-      speed_mm_s: this.ring.at(tick, COLUMN.speed_mm_s),
-      force_n: this.ring.at(tick, COLUMN.normal_force_n),
-      touches: (this.ring.flagsAt(tick) & FLAG.contact) !== 0,
-    };
+    return { ...this.ring.query(tick), touches: (this.ring.flagsAt(tick) & FLAG.contact) !== 0 };
   }
 
   /** Acceleration of tick `tick`, m/s²: vibration and tap, as the sound has them. */

@@ -3,8 +3,8 @@
 import { axes, clipped } from "./axes.js";
 import { Fft } from "./fft.js";
 import { Figure } from "./figure.js";
-import { decibels, densities } from "./level.js";
-import { COLUMN, FLAG } from "./ring.js";
+import { decibels } from "./models.js";
+import { FLAG } from "./ring.js";
 import { Span } from "./scale.js";
 
 const WINDOW_S = 0.5;
@@ -29,22 +29,23 @@ export class Spectrum extends Figure {
     this.scope = scope;
     this.texts = texts;
     this.least_s = LEAST_S;
-    this.fft = new Fft(2 ** Math.round(Math.log2(WINDOW_S * scope.tick_hz)));
-    this.signal = new Float64Array(this.fft.size);
-    this.powers = new Float64Array(this.fft.size / 2 + 1);
-    this.smooth = new Float64Array(this.fft.size / 2 + 1);
     this.last_s = -Infinity;
   }
 
-  /** A new texture: its loudest model, and how far the frequencies go. */
+  /** A new texture or another rate: the transform, the loudest model, and how far the frequencies go. */
   renew() {
-    const { inspect, levels } = this.scope;
-    if (!inspect) return;
-    const { grid } = levels;
-    const nyquist_hz = 0.5 * grid.rate_hz;
+    const { models, tick_hz } = this.scope;
+    if (!models) return;
+    const size = 2 ** Math.round(Math.log2(WINDOW_S * tick_hz));
+    if (this.fft?.size !== size) {
+      this.fft = new Fft(size);
+      this.signal = new Float64Array(size);
+      [this.powers, this.smooth] = [0, 1].map(() => new Float64Array(size / 2 + 1));
+    }
+    const nyquist_hz = 0.5 * models.rate_hz;
     this.high_hz = Math.max(HIGH_HZ, nyquist_hz);
     const some_hz = Array.from({ length: 64 }, (_, n) => LOW_HZ * (nyquist_hz / LOW_HZ) ** (n / 63));
-    const loudest = Math.max(...grid.vertices.map((model) => Math.max(...densities(grid, model, some_hz))));
+    const loudest = Math.max(...models.vertices.map((vertex) => Math.max(...models.densities(vertex, some_hz))));
     this.top = new Span(loudest > 0 ? upTo10(decibels(loudest)) - ROUND_DB : 0, upTo10);
     this.promise = null;
     this.version = (this.version ?? 0) + 1;
@@ -52,13 +53,9 @@ export class Spectrum extends Figure {
   }
 
   draw(ctx, now_s) {
-    const { scope } = this;
-    if (!scope.levels) {
-      this.read(() => "", now_s);
-      return;
-    }
+    const { models, chosen } = this.scope;
+    if (!models) return this.read(() => "", now_s);
     this.#measure(now_s);
-    const { grid } = scope.levels;
     const [first, last] = [Math.ceil(LOW_HZ / this.#bin_hz), Math.floor(this.high_hz / this.#bin_hz)];
     let strongest = first;
     for (let k = first; k <= last; k++) if (this.smooth[k] > this.smooth[strongest]) strongest = k;
@@ -66,24 +63,15 @@ export class Spectrum extends Figure {
     const top_db = this.top.follow(power > 0 ? decibels(power) : -Infinity, now_s);
     const placed = this.layer(ctx, "axes", `${this.version}|${top_db}`, (on) => this.#axes(on, top_db));
     const points = this.#points(placed);
-    const half_hz = 0.5 * grid.rate_hz;
+    const half_hz = 0.5 * models.rate_hz;
     const of_model = points.filter(({ freq_hz }) => freq_hz <= half_hz);
     const freqs_hz = of_model.map(({ freq_hz }) => freq_hz);
-    const expected = this.#expected(grid, freqs_hz);
+    const expected = this.#expected(models, freqs_hz);
     clipped(ctx, placed.box, () => {
       if (expected) this.#area(ctx, placed, of_model, expected);
-      this.#line(
-        ctx,
-        placed,
-        points,
-        points.map((point) => this.#mean(point)),
-        this.stage.palette.accent,
-        1.5,
-      );
-      if (scope.chosen) {
-        const model = grid.modelAt(scope.chosen.speed_mm_s, scope.chosen.force_n);
-        this.#line(ctx, placed, of_model, densities(grid, model, freqs_hz), this.stage.palette.accent_2, 2);
-      }
+      const { accent, accent_2 } = this.stage.palette;
+      this.#line(ctx, placed, points, points.map((point) => this.#mean(point)), accent, 1.5);
+      if (chosen) this.#line(ctx, placed, of_model, models.densities(chosen, freqs_hz), accent_2, 2);
     });
     this.shown = power > 0 ? { freq_hz: strongest * this.#bin_hz, density_db: decibels(power) } : null;
     if (expected) {
@@ -110,13 +98,9 @@ export class Spectrum extends Figure {
 
   #axes(ctx, top_db) {
     const low_db = top_db - DEPTH_DB;
-    const placed = axes(
-      ctx,
-      this,
-      { low: LOW_HZ, high: this.high_hz, log: true, title: this.texts.frequency_axis },
-      { low: low_db, high: top_db, title: this.texts.density_axis, every: ROUND_DB },
-    );
-    const nyquist_hz = 0.5 * this.scope.levels.grid.rate_hz;
+    const placed = axes(ctx, this, { low: LOW_HZ, high: this.high_hz, log: true, title: this.texts.frequency_axis },
+      { low: low_db, high: top_db, title: this.texts.density_axis, every: ROUND_DB });
+    const nyquist_hz = 0.5 * this.scope.models.rate_hz;
     const { box, x } = placed;
     ctx.strokeStyle = ctx.fillStyle = this.stage.palette.muted;
     ctx.setLineDash([2, 3]);
@@ -133,7 +117,7 @@ export class Spectrum extends Figure {
   /** The points of a curve, with the bins that each is a mean of. */
   #points({ box }) {
     const count = Math.max(2, Math.round((box.right - box.left) / POINT_PX));
-    const key = `${count}|${this.high_hz}`;
+    const key = `${count}|${this.high_hz}|${this.#bin_hz}`;
     if (this.points_key === key) return this.points;
     this.points_key = key;
     const ratio = this.high_hz / LOW_HZ;
@@ -158,7 +142,7 @@ export class Spectrum extends Figure {
 
   /** What the models promise over the window, weighted and smoothed as the measured powers are; null where nothing
    * was touched. */
-  #expected(grid, freqs_hz) {
+  #expected(models, freqs_hz) {
     const { ring, now } = this.scope;
     if (this.promise?.length !== freqs_hz.length) this.promise = new Float64Array(freqs_hz.length);
     const sum = new Float64Array(freqs_hz.length);
@@ -170,8 +154,7 @@ export class Spectrum extends Figure {
       const tick = now - 1 - Math.round(share * this.fft.size);
       if (!ring.has(tick) || !(ring.flagsAt(tick) & FLAG.contact)) continue;
       touched++;
-      const model = grid.modelAt(ring.at(tick, COLUMN.speed_mm_s), ring.at(tick, COLUMN.normal_force_n));
-      densities(grid, model, freqs_hz).forEach((density, k) => (sum[k] += weight * density));
+      models.densities(ring.query(tick), freqs_hz).forEach((density, k) => (sum[k] += weight * density));
     }
     this.promise.forEach((before, k) => (this.promise[k] += this.share * (sum[k] / whole - before)));
     return touched > 0 ? this.promise : null;

@@ -1,6 +1,41 @@
 // When figures draw: at most once an animation frame, only what changed, only what is seen.
 
-import { Palette } from "./palette.js";
+import { element } from "../dom.js";
+
+/** Which property of the probe (`plots.css`) holds which colour. */
+const HOLDERS = {
+  ink: "color",
+  paper: "backgroundColor",
+  grid: "borderTopColor",
+  accent: "borderRightColor",
+  accent_2: "borderBottomColor",
+  muted: "borderLeftColor",
+};
+
+/** The page's colours and font as canvases need them: resolved, whatever notation the page uses. */
+class Palette {
+  constructor(container, changed) {
+    this.probe = element("span", { class: "unseen plot-probe" });
+    container.append(this.probe);
+    this.read();
+    const again = () => this.read() && changed();
+    // A theme is an attribute of the document or the system's wish.
+    new MutationObserver(again).observe(document.documentElement, { attributes: true });
+    for (const query of ["(prefers-color-scheme: dark)", "(forced-colors: active)", "(prefers-contrast: more)"]) {
+      matchMedia(query).addEventListener("change", again);
+    }
+  }
+
+  /** Returns whether something changed. */
+  read() {
+    const style = getComputedStyle(this.probe);
+    const found = Object.entries(HOLDERS).map(([name, property]) => [name, style[property]]);
+    const version = JSON.stringify([...found, style.fontFamily]);
+    if (version === this.version) return false;
+    Object.assign(this, Object.fromEntries(found), { version, font: style.fontFamily });
+    return true;
+  }
+}
 
 /** Least time between two drawings for those who want little motion, s. */
 const CALM_S = 0.25;
@@ -13,7 +48,6 @@ export class Stage {
     this.advance = advance;
     this.figures = new Set();
     this.frame = 0;
-    this.frame_ms = 0;
     this.palette = new Palette(container, () => this.redrawAll());
     this.motion = matchMedia("(prefers-reduced-motion: reduce)");
     this.seen = new IntersectionObserver((entries) => {
@@ -22,14 +56,8 @@ export class Stage {
     this.sizes = new ResizeObserver((entries) => {
       for (const entry of entries) this.#of(entry.target)?.resize(entry.contentRect);
     });
-    this.announcer = container.ownerDocument.createElement("p");
-    this.announcer.className = "plot-unseen";
-    this.announcer.setAttribute("aria-live", "polite");
+    this.announcer = element("p", { class: "unseen", "aria-live": "polite" });
     container.append(this.announcer);
-  }
-
-  get isCalm() {
-    return this.motion.matches;
   }
 
   #of(canvas) {
@@ -55,11 +83,10 @@ export class Stage {
   }
 
   #draw(now_s) {
-    const began_ms = performance.now();
     let goes_on = this.advance(now_s);
     for (const figure of this.figures) {
       if (!figure.isDrawable) continue;
-      const least_s = Math.max(figure.least_s, this.isCalm ? CALM_S : 0);
+      const least_s = Math.max(figure.least_s, this.motion.matches ? CALM_S : 0);
       // Half a frame early is on time.
       if (figure.dirty && now_s - figure.drawn_s >= least_s - 0.008) {
         figure.drawn_s = now_s;
@@ -73,7 +100,6 @@ export class Stage {
         figure.describe();
       } else goes_on = true;
     }
-    this.frame_ms = performance.now() - began_ms;
     if (goes_on) this.request();
   }
 
@@ -81,15 +107,5 @@ export class Stage {
   announce(text) {
     // The same text twice would not be said again.
     this.announcer.textContent = this.announcer.textContent === text ? `${text}\u00a0` : text;
-  }
-
-  destroy() {
-    cancelAnimationFrame(this.frame);
-    // A request after the end does nothing.
-    this.frame = -1;
-    this.seen.disconnect();
-    this.sizes.disconnect();
-    this.palette.destroy();
-    this.announcer.remove();
   }
 }

@@ -29,9 +29,9 @@ export const texts = {
     chosen: ({ kind, level_db, ...at }) => `${kind ? `${kinds[kind]} at ` : ""}${place(at)}: ${level(level_db)}`,
     no_hand: "No hand yet",
     no_texture: "No texture yet",
-    about: ({ max_speed_mm_s, max_force_n, interior, edge, triangles, low_db, high_db }) =>
+    about: ({ max_speed_mm_s, max_force_n, triangles, low_db, high_db }, { interior, edge }) =>
       `Up to ${signed(max_speed_mm_s, 0)} mm/s and ${signed(max_force_n, 1)} N; ${interior} models, ${edge} edge models, ` +
-      `${triangles} triangles${low_db === undefined ? "" : `; colours from ${signed(low_db, 0)} to ${signed(high_db, 0)} dB`}`,
+      `${triangles.length} triangles; colours from ${signed(low_db, 0)} to ${signed(high_db, 0)} dB`,
   },
   spectrum: {
     title: "Spectrum",

@@ -32,13 +32,8 @@ export class Waveform extends Figure {
     }
     const end = this.span.follow(peak, now_s);
     const placed = this.layer(ctx, "axes", `${end}`, (on) =>
-      axes(
-        on,
-        this,
-        { low: -1000 * WINDOW_S, high: 0, title: this.texts.time_axis },
-        { low: -end, high: end, title: this.texts.acceleration_axis },
-      ),
-    );
+      axes(on, this, { low: -1000 * WINDOW_S, high: 0, title: this.texts.time_axis },
+        { low: -end, high: end, title: this.texts.acceleration_axis }));
     const { accent, accent_2 } = this.stage.palette;
     clipped(ctx, placed.box, () => {
       this.#line(ctx, placed, from, to, COLUMN.vib_m_s2, 1, accent);

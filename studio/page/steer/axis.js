@@ -2,7 +2,7 @@
 
 import { element } from "../dom.js";
 import { texts } from "../texts.js";
-import { Held } from "./held.js";
+import { Held } from "./live.js";
 
 /** What the slider shows beyond 0 and 100. */
 const [LEAST, MOST] = [-25, 125];

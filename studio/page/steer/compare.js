@@ -1,16 +1,18 @@
 // Four slots to compare textures by ear, with their levels matched, and blind. For comparison only: nothing here proposes
 // a texture.
 
+import { Events } from "../events.js";
+
 export const LETTERS = ["A", "B", "C", "D"];
 
-export class Compare {
+/** Emits "change". */
+export class Compare extends Events {
   /** Entries of the session, `null` where a slot is empty. */
   slots = LETTERS.map(() => null);
   /** Number of the slot that is heard, −1 for none. */
   heard = -1;
   /** Order of the slots while they are compared blindly, else `null`. */
   order = null;
-  onchange = [];
   #matched = false;
   #loader;
   #session;
@@ -18,11 +20,12 @@ export class Compare {
   #state;
 
   constructor({ loader, session, sound, state }) {
+    super();
     this.#loader = loader;
     this.#session = session;
     this.#sound = sound;
     this.#state = state;
-    session.onchange.push(() => this.#shown());
+    session.on("change", () => this.#shown());
   }
 
   get filled() {
@@ -36,7 +39,7 @@ export class Compare {
   set matched(matched) {
     this.#matched = matched;
     this.#turn();
-    this.#changed();
+    this.emit("change");
   }
 
   /** How far a slot is turned down to the quietest one, dB. */
@@ -52,7 +55,7 @@ export class Compare {
     this.slots[n] = this.#session.current;
     this.heard = n;
     this.#turn();
-    this.#changed();
+    this.emit("change");
   }
 
   /** Plays a slot: while blind, the one at this place of the order; an empty one takes what is shown. */
@@ -95,13 +98,13 @@ export class Compare {
     }
     this.heard = n;
     this.#turn();
-    this.#changed();
+    this.emit("change");
   }
 
   #end() {
     this.order = null;
     this.#state.set({ blind: false });
-    this.#changed();
+    this.emit("change");
   }
 
   /** Something was shown: a slot, or what is in none. */
@@ -110,14 +113,10 @@ export class Compare {
     const { current } = this.#session;
     if (this.slots[this.heard] !== current) this.heard = this.slots.indexOf(current);
     this.#turn();
-    this.#changed();
+    this.emit("change");
   }
 
   #turn() {
     this.#sound.trim = this.#matched && this.heard >= 0 ? this.gain_db(this.heard) : 0;
-  }
-
-  #changed() {
-    for (const hear of this.onchange) hear();
   }
 }

@@ -1,10 +1,9 @@
 // How the texture feels, as sliders: heard while they move, one edit of the base once they are released.
 
-import { announce, element, find } from "../dom.js";
+import { announce, element, find, showRefusal } from "../dom.js";
 import { texts } from "../texts.js";
 import { Axis } from "./axis.js";
 import { Live } from "./live.js";
-import { showRefusal } from "./refused.js";
 
 /** Axes that are shown first; the others are finer ones. */
 const FIRST = ["rough", "slippery", "hard"];
@@ -40,12 +39,12 @@ export class Feel {
     this.#live = new Live(loader, (texture) => this.#heard(texture), (refusal) => showRefusal(this.#error, refusal));
     find("feel").append(this.#sliders, this.#finer, this.#note, this.#encode, this.#error);
     state.on(["about"], ({ about }) => about && this.#build(about.sliders?.length ? about.sliders : UNSCALED));
-    session.onchange.push(() => {
+    session.on("change", () => {
       showRefusal(this.#error, null);
       this.#live.forget();
       this.#show();
     });
-    loader.onrefused.push((refusal, how) => KINDS.includes(how?.kind) && this.#refused(refusal));
+    loader.on("refused", ({ refusal, how }) => KINDS.includes(how?.kind) && this.#refused(refusal));
     this.#show();
   }
 

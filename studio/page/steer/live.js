@@ -1,4 +1,4 @@
-// What is heard while a slider moves: one request at a time, the latest value next.
+// What is heard while a slider moves: one request at a time, the latest value next; and while a person moves it.
 
 export class Live {
   #loader;
@@ -55,5 +55,39 @@ export class Live {
       this.#made.set(key, making);
     }
     return this.#made.get(key);
+  }
+}
+
+/** After a key, the slider counts as released when it rests so long. */
+const REST_MS = 400;
+
+/** Whether a person moves a slider: from the first change until it is released, which with keys is when it rests. */
+export class Held {
+  on = false;
+  #rest = null;
+  #released;
+
+  /** `moved` hears of every change, `released` once after the last. */
+  constructor(input, { moved, released }) {
+    this.#released = released;
+    let byPointer = false;
+    input.addEventListener("pointerdown", () => (byPointer = true));
+    input.addEventListener("keydown", () => (byPointer = false));
+    input.addEventListener("input", () => {
+      this.on = true;
+      clearTimeout(this.#rest);
+      if (!byPointer) this.#rest = setTimeout(() => this.release(), REST_MS);
+      moved();
+    });
+    // No change is told where a pointer comes back to where it began.
+    for (const end of ["pointerup", "pointercancel", "blur"]) input.addEventListener(end, () => this.release());
+    input.addEventListener("change", () => byPointer && this.release());
+  }
+
+  release() {
+    clearTimeout(this.#rest);
+    if (!this.on) return;
+    this.on = false;
+    this.#released();
   }
 }

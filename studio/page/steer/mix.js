@@ -1,11 +1,9 @@
 // Blend two textures, or compose one of the taps, the vibration and the friction of three.
 
-import { element, find } from "../dom.js";
+import { element, find, showRefusal } from "../dom.js";
 import { texts } from "../texts.js";
 import { Choice } from "./choice.js";
-import { Held } from "./held.js";
-import { Live } from "./live.js";
-import { showRefusal } from "./refused.js";
+import { Held, Live } from "./live.js";
 import { describe } from "./timeline.js";
 
 const PARTS = ["tap", "slide", "friction"];
@@ -38,12 +36,12 @@ export class Mix {
       group(texts.steer.mix.compose, ...PARTS.map((name) => this.#composed[name].element), this.#compose), this.#error, words);
     new Held(this.#t, { moved: () => this.#moves(), released: () => this.#settles() });
     state.on(["about"], ({ about }) => words.replaceChildren(...(about?.words ?? []).map((word) => element("option", { value: word }))));
-    session.onchange.push(() => {
+    session.on("change", () => {
       showRefusal(this.#error, null);
       this.#offer();
     });
-    compare.onchange.push(() => this.#offer());
-    loader.onrefused.push((refusal, how) => {
+    compare.on("change", () => this.#offer());
+    loader.on("refused", ({ refusal, how }) => {
       if (!["blend", "compose"].includes(how?.kind)) return;
       showRefusal(this.#error, refusal);
       session.sound();

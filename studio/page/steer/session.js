@@ -3,21 +3,23 @@
 // An entry is { texture, base, steps, how }: `steps` of the sliders lead from `base` to the texture, where `base` is what
 // was there before the sliders moved. So an asset stores one edit, however often they move.
 
+import { Events } from "../events.js";
+
 const MOST = 200;
 
-export class Session {
+/** Emits "change". */
+export class Session extends Events {
   entries = [];
-  /** Called after every change. */
-  onchange = [];
   #at = -1;
   /** Where undo and redo have gone while the server answers. */
   #aim = null;
   #loader;
 
   constructor(loader) {
+    super();
     this.#loader = loader;
-    loader.onshown.push((texture, how) => this.#shown(texture, how));
-    loader.onrefused.push(() => (this.#aim = null));
+    loader.on("shown", ({ texture, how }) => this.#shown(texture, how));
+    loader.on("refused", () => (this.#aim = null));
   }
 
   get current() {
@@ -68,7 +70,7 @@ export class Session {
     const known = how.entry ?? (how.kind === "undo" && this.entries.find((entry) => entry.texture.id === texture.id));
     if (known) this.#return(known);
     else this.#add({ texture, base: how.base ?? texture, steps: how.steps ?? {}, how });
-    for (const hear of this.onchange) hear();
+    this.emit("change");
   }
 
   #return(entry) {

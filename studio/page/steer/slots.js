@@ -3,8 +3,7 @@
 import { announce, element, find, recall, remember } from "../dom.js";
 import { texts } from "../texts.js";
 import { LETTERS } from "./compare.js";
-import { portrait } from "./portrait.js";
-import { changeOf, describe } from "./timeline.js";
+import { changeOf, describe, portrait } from "./timeline.js";
 
 const said = texts.steer.compare;
 
@@ -65,7 +64,7 @@ export function startSlots({ server, session }, compare) {
     const level = !matched ? "" : order || compare.heard < 0 ? said.matched : said.matched_by(LETTERS[compare.heard], compare.gain_db(compare.heard));
     told.textContent = [order ? "" : revealed, level].filter(Boolean).join(" · ");
   };
-  compare.onchange.push(show);
+  compare.on("change", show);
   show();
   return () => keys.input.checked;
 }

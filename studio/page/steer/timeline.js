@@ -1,10 +1,7 @@
 // The textures of this session as a strip of pictures, with undo and redo.
 
-import { element, find } from "../dom.js";
-import { notify, withdraw } from "../notices.js";
+import { element, find, notify, withdraw } from "../dom.js";
 import { texts } from "../texts.js";
-import { madeAgain } from "./again.js";
-import { portrait } from "./portrait.js";
 
 /** What led to an entry, in a few words; empty for a prompt. */
 export const changeOf = ({ how, steps }) =>
@@ -13,6 +10,47 @@ export const changeOf = ({ how, steps }) =>
 export function describe(entry) {
   const by = changeOf(entry);
   return by ? `${entry.texture.name}: ${by}` : entry.texture.name;
+}
+
+/** An image without a text of its own; where the server has it no longer, nothing is shown in its place. */
+export function portrait(server, texture) {
+  const hide = () => (image.style.visibility = "hidden");
+  const done = () => image.src.startsWith("blob:") && URL.revokeObjectURL(image.src);
+  const image = element("img", { alt: "", width: 40, height: 40, draggable: "false", onerror: hide, onload: done });
+  server.portrait(texture).then((address) => (image.src = address), hide);
+  return image;
+}
+
+// Making a texture again that the server no longer has: the same requests in the same order give the same bytes.
+/** What textures a step needs, and how the server takes it. */
+const MAKERS = {
+  prompt: ({ prompt, seed }) => [[], (server, _, signal) => server.compile({ prompt, seed }, signal)],
+  steps: ({ base, steps }) => [[base], (server, [from], signal) =>
+    (Object.keys(steps).length ? server.edit(from, { steps }, signal) : Promise.resolve(from))],
+  words: ({ of, words }) => [[of], (server, [from], signal) => server.edit(from, { words }, signal)],
+  encode: ({ from }) => [[from], (server, [of], signal) => server.encode(of, signal)],
+  blend: ({ a, b, t }) => [[a, b], (server, [from, to], signal) => server.blend(from, to, t, false, signal)],
+  compose: ({ tap, slide, friction }) => [[tap, slide, friction], (server, [taps, slides, rubs], signal) =>
+    server.compose({ tap: taps, slide: slides, friction: rubs }, signal)],
+};
+
+/** What makes a texture again, as of the loader; `null` where a file would have to be opened. */
+function madeAgain(server, session, texture) {
+  const ways = new Map(session.entries.map((entry) => [entry.texture.id, entry.how]));
+  const find = (wanted) => {
+    const how = ways.get(wanted.id) ?? (wanted.compiled && { kind: "prompt", prompt: wanted.compiled.prompt, seed: wanted.seed });
+    const maker = how && MAKERS[how.kind];
+    if (!maker) return null;
+    const [needed, make] = maker(how);
+    const before = needed.map((other) => (other.id === wanted.id ? null : find(other)));
+    if (before.includes(null)) return null;
+    return async (signal) => {
+      const made = [];
+      for (const step of before) made.push(await step(signal));
+      return make(server, made, signal);
+    };
+  };
+  return find(texture);
 }
 
 export function startTimeline({ server, state, session, loader }) {
@@ -53,13 +91,13 @@ export function startTimeline({ server, state, session, loader }) {
     const current = list.children[at];
     if (current) list.scrollLeft = current.offsetLeft - (list.clientWidth - current.offsetWidth) / 2;
   };
-  session.onchange.push(() => {
+  session.on("change", () => {
     withdraw("gone");
     show();
   });
   state.on(["blind"], show);
 
-  loader.onrefused.push(({ message }, how) => {
+  loader.on("refused", ({ refusal: { message }, how }) => {
     if (how?.kind !== "undo") return;
     const { entry } = how;
     const make = madeAgain(server, session, entry.texture);

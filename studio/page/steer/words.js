@@ -1,8 +1,7 @@
 // Changes in words, such as “less gritty, more waxy”, and what was understood of them.
 
-import { element, find } from "../dom.js";
+import { element, find, showRefusal } from "../dom.js";
 import { texts } from "../texts.js";
-import { showRefusal } from "./refused.js";
 
 /** Smallest move that is shown, steps. */
 const LEAST = 0.5;
@@ -28,8 +27,8 @@ export class Words {
     });
     find("words-panel").append(form,
       element("div", { class: "examples", role: "group", "aria-label": texts.steer.words.try }, ...this.#examples), this.#understood, this.#error);
-    parts.session.onchange.push(() => this.#show());
-    parts.loader.onrefused.push((refusal, how) => how?.kind === "words" && showRefusal(this.#error, refusal));
+    parts.session.on("change", () => this.#show());
+    parts.loader.on("refused", ({ refusal, how }) => how?.kind === "words" && showRefusal(this.#error, refusal));
     parts.state.on(["about"], () => this.#show());
   }
 

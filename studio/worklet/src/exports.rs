@@ -11,7 +11,9 @@
 use crate::{
     engine::{Block, Engine, MAX_FRAMES},
     hand::{Pointer, RATE_HZ, ROOM},
+    row::Row,
     session::{SPARE, Session},
+    spectrum::Spectrum,
     status::Status,
 };
 use asperity_runtime::{Exchange, HostTexture, LoadError, PrepareError};
@@ -64,6 +66,8 @@ static WAITING: Single<[MaybeUninit<HostTexture>; SPARE]> =
 /// Where an asset is loaded before the session ends.
 static NEXT: Single<HostTexture> = Single::new(HostTexture::EMPTY);
 static REFUSED_RATE_HZ: Single<f32> = Single::new(0.0);
+static ROW: Single<Row> = Single::new(Row::EMPTY);
+static SPECTRUM: Single<Spectrum> = Single::new(Spectrum::SILENT);
 
 /// The bytes of an asset, `asset_capacity` of them.
 #[unsafe(no_mangle)]
@@ -107,10 +111,10 @@ extern "C" fn buffer_positions() -> *const f32 {
     BLOCK.get().positions_mm.as_ptr().cast()
 }
 
-/// Columns 3 to 11 of `asperity render` for each tick of `process`, nine `f32` each.
+/// Columns 3 to 11 of `asperity render` for each tick of `process`, nine `f32` each; `print_row` takes those of the first.
 #[unsafe(no_mangle)]
-extern "C" fn buffer_columns() -> *const f32 {
-    BLOCK.get().columns.as_ptr().cast()
+extern "C" fn buffer_columns() -> *mut f32 {
+    BLOCK.get().columns.as_mut_ptr().cast()
 }
 
 /// The last column of `asperity render` for each tick of `process`, `u32`.
@@ -238,6 +242,40 @@ extern "C" fn process(frames: usize, now_s: f64) -> usize {
     ENGINE.get().process(frames, now_s, block);
     block.ticks
 }
+
+/// The text of `print_row`, ASCII.
+#[unsafe(no_mangle)]
+extern "C" fn buffer_row() -> *const u8 {
+    ROW.get().text.as_ptr()
+}
+
+/// Prints the first nine numbers of `buffer_columns` as `asperity render` does, with commas between them; the bytes of
+/// the text.
+#[unsafe(no_mangle)]
+extern "C" fn print_row() -> usize {
+    ROW.get().print(&BLOCK.get().columns[0])
+}
+
+/// Mixes the model that the texture that plays has at a speed and a force, for `density` and `power`; silence without
+/// one.
+#[unsafe(no_mangle)]
+extern "C" fn mix(speed_mm_s: f32, force_n: f32) {
+    let session = ENGINE.get().session();
+    *SPECTRUM.get() = session.map_or(Spectrum::SILENT, |s| s.spectrum(speed_mm_s, force_n));
+}
+
+/// Power density of the mixed model on one side at a frequency up to half the rate, (m/s²)²/Hz.
+#[unsafe(no_mangle)]
+extern "C" fn density(freq_hz: f64) -> f64 {
+    SPECTRUM.get().density(freq_hz)
+}
+
+/// Power of the mixed model above 40 Hz as the sum over `points` frequencies, (m/s²)².
+#[unsafe(no_mangle)]
+extern "C" fn power(points: u32) -> f64 {
+    SPECTRUM.get().power(points)
+}
+
 /// Keeps what the page needs to have the asset compiled for another rate.
 fn refused(error: &LoadError) -> Status {
     if let LoadError::Rate { model_hz, .. } = *error {

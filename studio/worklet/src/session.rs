@@ -1,6 +1,6 @@
 //! The rendering session: the runtime as `asperity render --rate 16000` sets it up.
 
-use crate::hand::RATE_HZ;
+use crate::{hand::RATE_HZ, spectrum::Spectrum};
 use asperity_runtime::{
     Config, ConfigError, Exchange, HostTexture, Output, Player, PrepareError, Preparer, Renderer,
     SafetyConfig, Sample,
@@ -139,5 +139,12 @@ impl<'q, 'a> Session<'q, 'a> {
     #[must_use]
     pub fn model_rate_hz(&self) -> f32 {
         RATE_HZ / f32::from(self.player.texture().ticks_per_sample())
+    }
+
+    /// Spectrum of the texture that plays at a speed and a force, once both rest.
+    #[must_use]
+    pub fn spectrum(&self, speed_mm_s: f32, force_n: f32) -> Spectrum {
+        let filter = self.player.texture().filter_at(speed_mm_s, force_n);
+        Spectrum::new(&filter, self.model_rate_hz())
     }
 }

@@ -41,7 +41,7 @@ const PAINT: &str =
 const CACHED: &str = "build cached.toml -o out.aspl --cache cache --json";
 
 /// Their number shares no divisor with the stride of the small size, so that it meets as many of them as it can.
-pub(crate) const FORMS: [Form; 91] = [
+pub(crate) const FORMS: [Form; 90] = [
     form(Compiler, "inspect in.asp", "in.asp", Seed::Asset),
     form(Compiler, "inspect in.asp --json", "in.asp", Seed::Asset),
     form(Compiler, "inspect in.aspl", "in.aspl", Seed::Library),
@@ -514,12 +514,6 @@ pub(crate) const FORMS: [Form; 91] = [
         "bench --hatt materials --seconds 3 -o out",
         "materials/in.xml",
         Seed::Material,
-    ),
-    form(
-        Lab,
-        "device exercise sim:in.toml?time=stepped --ticks 300",
-        "in.toml",
-        Seed::Device,
     ),
     form(
         Lab,

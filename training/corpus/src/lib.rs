@@ -5,7 +5,7 @@
 //! augmented [`Instance`]s on one unified speed–force grid of [`BINS`] bins.
 #![forbid(unsafe_code)]
 
-pub mod augment;
+mod augment;
 mod error;
 pub mod generator;
 mod grid;

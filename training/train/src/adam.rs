@@ -1,5 +1,5 @@
 //! Adam with decoupled weight decay and a bound on the whole gradient's norm, in one
-//! pass over the parameters; its state can be saved.
+//! pass over the parameters.
 
 use crate::parameters::Parameters;
 
@@ -8,14 +8,13 @@ const BETA_2: f32 = 0.999;
 const EPSILON: f32 = 1e-8;
 
 /// Running moments of the gradients.
-#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Adam {
     /// Steps taken.
-    pub(crate) steps: u64,
+    steps: u64,
     /// First moments, in the order of the parameters.
-    pub(crate) first: Vec<Vec<f32>>,
+    first: Vec<Vec<f32>>,
     /// Second moments.
-    pub(crate) second: Vec<Vec<f32>>,
+    second: Vec<Vec<f32>>,
 }
 
 /// Settings of a step.

@@ -1,6 +1,10 @@
 //! Objective attributes of an instance, as the compiler defines them for a texture.
 
-use asperity::{model::attributes::Meter, learned::description::{GridDescription, ModelDescription}, signal::spectrum::trace_centroid_hz};
+use asperity::{
+    learned::description::{GridDescription, ModelDescription},
+    model::attributes::Meter,
+    signal::spectrum::trace_centroid_hz,
+};
 use asperity_corpus::{Corpus, Instance, TAP_RATE_HZ, TAPS};
 
 /// Layout shared by all instances of a corpus: positions of bins and traces.

@@ -12,7 +12,7 @@ const BINS: usize = 10;
 ///
 /// Without trials it is certain of nothing.
 #[must_use]
-pub fn certainty_curve(trials: &[(f64, f64)]) -> CertaintyCurve {
+pub(crate) fn certainty_curve(trials: &[(f64, f64)]) -> CertaintyCurve {
     let mut sorted = trials.to_vec();
     sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
     let size = sorted.len().div_ceil(KNOTS).max(1);
@@ -57,7 +57,7 @@ fn certainty(curve: &CertaintyCurve, familiarity: f64) -> f64 {
 /// certainty by how many trials each holds. Every second trial makes the curve that the others are
 /// held against, and the other way round.
 #[must_use]
-pub fn calibration_error(trials: &[(f64, f64)]) -> f64 {
+pub(crate) fn calibration_error(trials: &[(f64, f64)]) -> f64 {
     let half = |first: usize| -> Vec<(f64, f64)> {
         let every_second = trials.iter().skip(first).step_by(2);
         every_second.copied().collect()

@@ -6,11 +6,12 @@ use asperity::signal::level::nyquist_rms;
 
 /// Returns the network's code for a model with these LSFs (rad) and this level (dB).
 pub(crate) fn encode(excitation: Excitation, lsf_rad: &[f32], level_db: f32) -> f32 {
-    let sigma_db = || f64::from(level_db) - gain_db(lsf_rad);
     match excitation {
         Excitation::Level => level_db,
-        Excitation::LogSigma => sigma_db() as f32,
-        Excitation::Variance => libm::exp10(0.1 * sigma_db()) as f32,
+        Excitation::Variance => {
+            let sigma_db = f64::from(level_db) - gain_db(lsf_rad);
+            libm::exp10(0.1 * sigma_db) as f32
+        }
     }
 }
 
@@ -20,7 +21,6 @@ pub(crate) fn encode(excitation: Excitation, lsf_rad: &[f32], level_db: f32) -> 
 pub(crate) fn decode(excitation: Excitation, lsf_rad: &[f32], code: f32) -> f32 {
     match excitation {
         Excitation::Level => code,
-        Excitation::LogSigma => (f64::from(code) + gain_db(lsf_rad)) as f32,
         Excitation::Variance => (10.0 * libm::log10(f64::from(code)) + gain_db(lsf_rad)) as f32,
     }
 }
@@ -28,7 +28,7 @@ pub(crate) fn decode(excitation: Excitation, lsf_rad: &[f32], code: f32) -> f32 
 /// The codes that lie `margin_db` beyond `low` and `high`.
 pub(crate) fn widen(excitation: Excitation, low: f32, high: f32, margin_db: f32) -> (f32, f32) {
     match excitation {
-        Excitation::Level | Excitation::LogSigma => (low - margin_db, high + margin_db),
+        Excitation::Level => (low - margin_db, high + margin_db),
         Excitation::Variance => {
             let factor = libm::exp10f(0.1 * margin_db);
             (low / factor, high * factor)
@@ -50,11 +50,7 @@ mod tests {
 
     #[test]
     fn every_coding_is_undone() {
-        for excitation in [
-            Excitation::Level,
-            Excitation::LogSigma,
-            Excitation::Variance,
-        ] {
+        for excitation in [Excitation::Level, Excitation::Variance] {
             for level_db in [-40.0, -3.0, 12.5] {
                 let code = encode(excitation, &LSF, level_db);
                 assert!((decode(excitation, &LSF, code) - level_db).abs() < 1e-4);

@@ -86,8 +86,6 @@ pub struct Coding {
 pub enum Excitation {
     /// Variance of the white noise that drives the filter, (m/s²)²: the paper's.
     Variance,
-    /// Its standard deviation, dB re 1 m/s².
-    LogSigma,
     /// RMS of the vibration itself, dB re 1 m/s².
     Level,
 }
@@ -325,30 +323,14 @@ impl Diagnostic for ConfigError {
 }
 
 impl Config {
-    /// The paper's recipe.
-    ///
-    /// # Errors
-    /// None for the embedded file, which a test reads.
-    pub fn paper() -> Result<Self, ConfigError> {
-        Self::parse("paper", PAPER)
-    }
-
-    /// The recipe of the shipped model.
-    ///
-    /// # Errors
-    /// None for the embedded file, which a test reads.
-    pub fn reference() -> Result<Self, ConfigError> {
-        Self::parse("reference", REFERENCE)
-    }
-
     /// `paper`, `reference`, `hatt`, or the path of a file.
     ///
     /// # Errors
     /// [`ConfigError`].
     pub fn find(name_or_path: &str) -> Result<Self, ConfigError> {
         match name_or_path {
-            "paper" => Self::paper(),
-            "reference" => Self::reference(),
+            "paper" => Self::parse("paper", PAPER),
+            "reference" => Self::parse("reference", REFERENCE),
             "hatt" => Self::parse("hatt", HATT),
             path => {
                 let text = fs::read_to_string(path).map_err(|source| ConfigError::Unreadable {

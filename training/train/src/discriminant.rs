@@ -5,7 +5,7 @@
 //! and whitened; of the class means, the directions of largest variance λ are kept, each as long as
 //! √(λ/(1 + λ)).
 
-use crate::eigen;
+use crate::{eigen, ridge::dot};
 
 /// A fitted projection.
 #[derive(Debug, Clone, PartialEq)]
@@ -120,10 +120,6 @@ fn scaled(pairs: Vec<(f64, Vec<f64>)>, length: impl Fn(f64) -> f64) -> Vec<Vec<f
         vector.into_iter().map(|x| x * length).collect()
     };
     pairs.into_iter().map(scale).collect()
-}
-
-fn dot(x: &[f64], y: &[f64]) -> f64 {
-    x.iter().zip(y).map(|(x, y)| x * y).sum()
 }
 
 #[cfg(test)]

@@ -1,7 +1,9 @@
 //! Why a model cannot be trained.
 
 use asperity_io::{
-    diagnostic::{Diagnostic, Fault}, output::OutputError};
+    diagnostic::{Diagnostic, Fault},
+    output::OutputError,
+};
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -12,14 +14,6 @@ pub enum FitError {
     /// Nothing to tell apart.
     #[error("{0} materials to train on, at least 2 are needed")]
     TooFewMaterials(usize),
-    /// A material outside the corpus.
-    #[error("material {index} of a corpus of {count}")]
-    NoSuchMaterial {
-        /// The requested index.
-        index: usize,
-        /// Materials in the corpus.
-        count: usize,
-    },
     /// A material that cannot be trained on.
     #[error("material `{name}`: {field}")]
     Material {
@@ -34,7 +28,7 @@ pub enum FitError {
         /// The text.
         caption: String,
         /// Why.
-        source: Fault,
+        source: Box<Fault>,
     },
     /// A text encoder whose vectors are not as wide as it says.
     #[error("text encoder `{encoder}`: a vector of {found} numbers, it says {expected}")]
@@ -54,15 +48,15 @@ pub enum FitError {
         /// The loss.
         loss: f32,
     },
-    /// Stopped by the user; the state is kept.
+    /// Stopped by the user.
     #[error("interrupted after epoch {epoch}")]
     Interrupted {
         /// Epochs done.
         epoch: usize,
     },
-    /// A state that cannot be resumed.
+    /// Kept text vectors that cannot be used.
     #[error("{}: {message}", path.display())]
-    Checkpoint {
+    Vectors {
         /// The file.
         path: PathBuf,
         /// The problem.
@@ -84,15 +78,13 @@ pub enum FitError {
 impl Diagnostic for FitError {
     fn remedy(&self) -> String {
         match self {
-            Self::TooFewMaterials(_) | Self::NoSuchMaterial { .. } => {
-                "choose at least two materials of the corpus".into()
-            }
+            Self::TooFewMaterials(_) => "choose at least two materials of the corpus".into(),
             Self::Material { .. } => "correct the material's entry in the corpus".into(),
             Self::Caption { .. } => "correct the caption, or choose another text encoder".into(),
             Self::Width { .. } => "choose another text encoder".into(),
             Self::Diverged { .. } => "lower optimiser.learning_rate, or optimiser.clip_norm".into(),
-            Self::Interrupted { .. } => "the same command with --resume goes on from there".into(),
-            Self::Checkpoint { .. } => "train without --resume, from the start".into(),
+            Self::Interrupted { .. } => "the same command starts anew".into(),
+            Self::Vectors { .. } => "remove the file, or give another with --vectors".into(),
             Self::Output(error) => error.remedy(),
             Self::Threads { .. } => "give another number of --threads".into(),
         }

@@ -5,7 +5,6 @@ use crate::{
     attributes::Layout,
     batch::Instances,
     captions::Captions,
-    checkpoint::{self, Identity},
     config::Config,
     error::FitError,
     kernel_ridge::KernelRidge,
@@ -20,25 +19,8 @@ use crate::{
     trained::{Seen, Trained, posteriors},
     vae::{Run, State},
 };
-use asperity::learned::{description::LATENT, text::TextEncoder};
-use asperity_corpus::{Corpus, Rating, reference::LexiconEntry};
-use std::path::Path;
-
-/// Trains on a whole corpus, encoding its texts first.
-///
-/// # Errors
-/// [`FitError`].
-pub fn fit(
-    corpus: &Corpus,
-    lexicon: &[LexiconEntry],
-    encoder: &dyn TextEncoder,
-    config: &Config,
-    progress: &mut dyn Progress,
-) -> Result<Trained, FitError> {
-    let captions = Captions::encode(corpus, lexicon, encoder)?;
-    let all: Vec<usize> = (0..corpus.materials.len()).collect();
-    fit_on(corpus, &all, &captions, config, progress)
-}
+use asperity::learned::description::LATENT;
+use asperity_corpus::{Corpus, Rating};
 
 /// Trains on some materials of a corpus, given as indices; `captions` are those of the
 /// whole corpus. The same arguments give the same model, whatever the thread count.
@@ -63,50 +45,6 @@ pub fn fit_on(
     Ok(session.finish(progress))
 }
 
-/// Where a run keeps its state.
-#[derive(Debug, Clone, Copy)]
-pub struct Checkpoints<'a> {
-    /// The file.
-    pub path: &'a Path,
-    /// Epochs between two savings.
-    pub every: usize,
-    /// True to resume from the file, which must then exist.
-    pub resume: bool,
-}
-
-/// As [`fit_on`], with the state of the first stage on disk: an interrupt saves it, and
-/// what goes on from there ends in the same model. A finished state may be resumed with
-/// another text stage, which alone then runs.
-///
-/// # Errors
-/// [`FitError`]; [`FitError::Checkpoint`] for a file of another run.
-pub fn fit_with_checkpoints(
-    corpus: &Corpus,
-    materials: &[usize],
-    captions: &Captions,
-    config: &Config,
-    checkpoints: Checkpoints<'_>,
-    progress: &mut dyn Progress,
-) -> Result<Trained, FitError> {
-    let identity = Identity::new(corpus, materials, captions, config);
-    let mut session = TrainingRun::new(corpus, materials, captions, config)?;
-    if checkpoints.resume {
-        checkpoint::load(checkpoints.path, &identity, &mut session.state)?;
-    }
-    while !session.is_done() {
-        session.epoch(progress)?;
-        let epoch = session.state.history.len();
-        let stop = progress.interrupted();
-        if stop || session.is_done() || epoch.is_multiple_of(checkpoints.every.max(1)) {
-            checkpoint::save(checkpoints.path, &identity, &session.state)?;
-        }
-        if stop {
-            return Err(FitError::Interrupted { epoch });
-        }
-    }
-    Ok(session.finish(progress))
-}
-
 /// Runs `work` on a pool of so many threads, all that the trainer uses.
 ///
 /// # Errors
@@ -121,7 +59,7 @@ pub fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> R
 }
 
 /// A run under way.
-pub(crate) struct TrainingRun<'a> {
+struct TrainingRun<'a> {
     config: &'a Config,
     captions: &'a Captions,
     materials: Vec<usize>,
@@ -130,12 +68,12 @@ pub(crate) struct TrainingRun<'a> {
     instances: Instances,
     ratings: Vec<Option<Rating>>,
     felt: Vec<Felt>,
-    pub(crate) state: State,
+    state: State,
 }
 
 impl<'a> TrainingRun<'a> {
     /// Prepares data and network.
-    pub(crate) fn new(
+    fn new(
         corpus: &Corpus,
         materials: &[usize],
         captions: &'a Captions,
@@ -185,12 +123,12 @@ impl<'a> TrainingRun<'a> {
     }
 
     /// Returns true if the first stage is over.
-    pub(crate) fn is_done(&self) -> bool {
+    fn is_done(&self) -> bool {
         self.state.history.len() >= self.config.optimiser.epochs
     }
 
     /// Trains an epoch of the first stage.
-    pub(crate) fn epoch(&mut self, progress: &mut dyn Progress) -> Result<(), FitError> {
+    fn epoch(&mut self, progress: &mut dyn Progress) -> Result<(), FitError> {
         let loss = self.state.epoch(&Run {
             config: self.config,
             network: &self.network,
@@ -207,7 +145,7 @@ impl<'a> TrainingRun<'a> {
     }
 
     /// The latents of the materials, the second stage, and the model.
-    pub(crate) fn finish(self, progress: &mut dyn Progress) -> Trained {
+    fn finish(self, progress: &mut dyn Progress) -> Trained {
         let State {
             parameters,
             history,
@@ -222,8 +160,6 @@ impl<'a> TrainingRun<'a> {
         );
         let mut trained = Trained {
             config: self.config.clone(),
-            projection: self.network.text.clone(),
-            projection_parameters: parameters.clone(),
             network: self.network,
             parameters,
             normaliser: self.normaliser,

@@ -55,11 +55,8 @@ impl KernelRidge {
         let device = Device::flex();
         let kept = how.directions.min(width);
         let basis = principal_directions(vectors, width, kept);
-        let all: Vec<f32> = vectors
-            .iter()
-            .flat_map(|vector| vector.iter().copied())
-            .collect();
-        let projected = matrix(all, width, &device).matmul(matrix(basis.clone(), kept, &device));
+        let projected =
+            matrix(vectors.concat(), width, &device).matmul(matrix(basis.clone(), kept, &device));
         let (codes, scales) = in_8_bits(&numbers(projected), kept);
         let mut memory = Self {
             concentration: how.concentration as f32,
@@ -134,12 +131,8 @@ impl KernelRidge {
         if vectors.is_empty() {
             return Vec::new();
         }
-        let device = Device::flex();
-        let asked = self.on_directions(vectors, &device);
-        numbers(asked)
-            .chunks(self.kept.max(1))
-            .map(<[f32]>::to_vec)
-            .collect()
+        let asked = self.on_directions(vectors, &Device::flex());
+        rows(asked, self.kept)
     }
 
     fn on_directions(&self, vectors: &[&[f32]], device: &Device) -> Tensor<2> {
@@ -160,21 +153,17 @@ impl KernelRidge {
         }
         let device = Device::flex();
         let asked = self.on_directions(vectors, &device);
-        let likeness = numbers(asked.matmul(self.vectors(&device).transpose()));
-        let rows = likeness.chunks(self.scales.len().max(1));
-        rows.map(<[f32]>::to_vec).collect()
+        let likeness = asked.matmul(self.vectors(&device).transpose());
+        rows(likeness, self.scales.len())
     }
 
     /// Returns the familiarity of text vectors: `1 + ln(Σ_i exp(κ(e·e_i − 1)))/κ`, a soft maximum of their inner
-    /// products with the examples. `without` leaves out an example for each vector.
-    pub(crate) fn familiarity(&self, vectors: &[&[f32]], without: Option<&[usize]>) -> Vec<f64> {
+    /// products with the examples but for one, which `without` names for each vector.
+    pub(crate) fn familiarity(&self, vectors: &[&[f32]], without: &[usize]) -> Vec<f64> {
         let rows = self.likeness(vectors).into_iter().enumerate();
         rows.map(|(row, likeness)| {
-            let left_out = without.map(|without| without[row]);
-            let terms = likeness
-                .iter()
-                .enumerate()
-                .filter(|(i, _)| Some(*i) != left_out);
+            let terms = likeness.iter().enumerate();
+            let terms = terms.filter(|(i, _)| *i != without[row]);
             let sum: f64 = terms
                 .map(|(_, &x)| f64::from(libm::expf(SHARPNESS * (x - 1.0))))
                 .sum();
@@ -201,6 +190,12 @@ impl KernelRidge {
             .flat_map(|(row, scale)| row.iter().map(move |&code| f32::from(code) * scale));
         matrix(values.collect(), self.kept, device)
     }
+}
+
+fn rows(values: Tensor<2>, columns: usize) -> Vec<Vec<f32>> {
+    let values = numbers(values);
+    let rows = values.chunks(columns.max(1));
+    rows.map(<[f32]>::to_vec).collect()
 }
 
 fn kernel(likeness: Tensor<2>, concentration: f32) -> Tensor<2> {
@@ -256,11 +251,7 @@ pub(crate) fn regress<const N: usize>(
 /// The directions in which vectors vary most, about zero, a column each: `width × kept`.
 fn principal_directions(vectors: &[&[f32]], width: usize, kept: usize) -> Vec<f32> {
     let device = Device::flex();
-    let all: Vec<f32> = vectors
-        .iter()
-        .flat_map(|vector| vector.iter().copied())
-        .collect();
-    let all = matrix(all, width, &device);
+    let all = matrix(vectors.concat(), width, &device);
     let moments = numbers(all.clone().transpose().matmul(all));
     let moments = moments.iter().map(|&x| f64::from(x)).collect();
     let pairs = eigen::symmetric(moments, width);

@@ -2,8 +2,8 @@
 //! models and tapping transients, with a projection of text into its latent (Qian et
 //! al., "Language-Guided Multimodal Texture Authoring via Generative Models").
 //!
-//! [`fit`] trains on a corpus, [`fit_on`] on some of its materials; both give a
-//! [`Trained`] that encodes, decodes and projects.
+//! [`fit_on`] trains on materials of a corpus, [`measure`] says how well, and [`export`] gives the
+//! files of a model folder. [`evaluate`](mod@evaluate) reports on such a folder.
 
 mod adam;
 mod attribute_regression;
@@ -11,7 +11,6 @@ mod attributes;
 mod batch;
 mod captions;
 mod certainty;
-mod checkpoint;
 mod coding;
 pub mod config;
 mod discriminant;
@@ -44,15 +43,11 @@ mod weights;
 mod words_held_out;
 
 pub use captions::Captions;
-pub use certainty::{calibration_error, certainty_curve};
 pub use config::Config;
 pub use error::FitError;
 pub use export::{ExportError, ModelFiles, export};
-pub use fit::{Checkpoints, fit, fit_on, fit_with_checkpoints, on_threads};
-pub use material::MaterialLatent;
-pub use metrics::{Metrics, Retrieval, measure};
-pub use normaliser::Normaliser;
-pub use progress::{EpochLoss, Progress, Silent};
-pub use trained::{Gaussian, Seen, Trained};
+pub use fit::{fit_on, on_threads};
+pub use metrics::{Metrics, measure};
+pub use progress::{EpochLoss, Progress};
+pub use trained::Trained;
 pub use vectors::Remembered;
-pub use words_held_out::{TOLERANCE, WordsHeldOut};

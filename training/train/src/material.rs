@@ -4,11 +4,11 @@ use asperity::learned::description::LATENT;
 
 /// A training material in the latent.
 #[derive(Debug, Clone, PartialEq)]
-pub struct MaterialLatent {
+pub(crate) struct MaterialLatent {
     /// Index into the corpus.
-    pub material: usize,
+    pub(crate) material: usize,
     /// Mean of its instances' posterior means.
-    pub mean: [f32; LATENT],
+    pub(crate) mean: [f32; LATENT],
     /// Unit mean of its training captions.
-    pub caption: Vec<f32>,
+    pub(crate) caption: Vec<f32>,
 }

@@ -138,7 +138,8 @@ fn share(sums: &[(f64, f64)]) -> f64 {
     }
 }
 
-fn active_units(means: &[[f32; LATENT]]) -> usize {
+/// Latent units whose posterior mean varies.
+pub(crate) fn active_units(means: &[[f32; LATENT]]) -> usize {
     let count = means.len().max(1) as f64;
     let active = |unit: usize| {
         let values = means.iter().map(|z| f64::from(z[unit]));

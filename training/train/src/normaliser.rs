@@ -31,25 +31,25 @@ const MIN_SHARE: f32 = 1e-3;
 /// `AR` values lie LSFs first, bin by bin, then one excitation a bin; taps trace by
 /// trace.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Normaliser {
+pub(crate) struct Normaliser {
     /// Coding of the excitation, and grouping of the values that share a deviation.
-    pub coding: Coding,
+    pub(crate) coding: Coding,
     /// Mean of the `AR` values.
-    pub ar_mean: Vec<f32>,
+    pub(crate) ar_mean: Vec<f32>,
     /// Deviation of the `AR` values.
-    pub ar_deviation: Vec<f32>,
+    pub(crate) ar_deviation: Vec<f32>,
     /// Mean of the tap samples, m/s².
-    pub tap_mean: Vec<f32>,
+    pub(crate) tap_mean: Vec<f32>,
     /// Deviation of the tap samples, m/s².
-    pub tap_deviation: Vec<f32>,
+    pub(crate) tap_deviation: Vec<f32>,
     /// Smallest and largest excitation that is decoded, coded.
-    pub excitation_bounds: (f32, f32),
+    pub(crate) excitation_bounds: (f32, f32),
     /// Smallest and largest level that is decoded, dB.
-    pub level_bounds_db: (f32, f32),
+    pub(crate) level_bounds_db: (f32, f32),
     /// Largest tap sample that is decoded, m/s².
-    pub tap_bound: Vec<f32>,
+    pub(crate) tap_bound: Vec<f32>,
     /// Mean share of π of the 22 gaps between LSFs, bin by bin: where the decoder starts.
-    pub gaps: Vec<f32>,
+    pub(crate) gaps: Vec<f32>,
 }
 
 /// Instances in the order of the network, not yet normalised.
@@ -92,11 +92,7 @@ pub(crate) fn check(corpus: &Corpus, materials: &[usize]) -> Result<(), FitError
         return Err(FitError::TooFewMaterials(materials.len()));
     }
     for &index in materials {
-        let count = corpus.materials.len();
-        let material = corpus
-            .materials
-            .get(index)
-            .ok_or(FitError::NoSuchMaterial { index, count })?;
+        let material = &corpus.materials[index];
         let fault = |field| FitError::Material {
             name: material.name.clone(),
             field,

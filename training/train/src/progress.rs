@@ -50,12 +50,3 @@ pub trait Progress {
         false
     }
 }
-
-/// Listens to nothing.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Silent;
-
-impl Progress for Silent {
-    fn epoch(&mut self, _: usize, _: usize, _: &EpochLoss) {}
-    fn text_epoch(&mut self, _: usize, _: usize, _: f32) {}
-}

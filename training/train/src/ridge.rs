@@ -68,7 +68,8 @@ pub(crate) fn fit(points: &[Vec<f64>], y: &[f64]) -> Line {
     }
 }
 
-fn dot(x: &[f64], y: &[f64]) -> f64 {
+/// Inner product.
+pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
     x.iter().zip(y).map(|(x, y)| x * y).sum()
 }
 

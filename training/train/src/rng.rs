@@ -1,5 +1,4 @@
-//! Seeded streams of random numbers, one a purpose and epoch, so that a run that is
-//! resumed draws what an uninterrupted one would.
+//! Seeded streams of random numbers, one a purpose and epoch.
 
 use rand_core::{Rng as _, SeedableRng as _};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -25,11 +24,20 @@ impl Stream {
     pub(crate) fn new(seed: u64, purpose: Purpose, epoch: usize) -> Self {
         // An odd multiplier spreads neighbouring epochs; the generator mixes the rest.
         let epoch = (epoch as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-        let key = seed ^ epoch.rotate_left(17) ^ ((purpose as u64) << 56);
+        Self::seeded(seed ^ epoch.rotate_left(17) ^ ((purpose as u64) << 56))
+    }
+
+    /// The stream of a seed alone, for splits and starts of the evaluation.
+    pub(crate) fn seeded(seed: u64) -> Self {
         Self {
-            generator: Xoshiro256PlusPlus::seed_from_u64(key),
+            generator: Xoshiro256PlusPlus::seed_from_u64(seed),
             spare: None,
         }
+    }
+
+    /// Uniform in [0, 1), 53 bits.
+    pub(crate) fn uniform_f64(&mut self) -> f64 {
+        (self.generator.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
     /// Uniform in [0, 1), 24 bits.

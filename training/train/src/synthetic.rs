@@ -6,7 +6,11 @@ use asperity_corpus::{
     UnifiedGrid, reference::LexiconEntry,
 };
 
-use crate::rng::{Purpose, Stream};
+use crate::{
+    evaluate::Watch,
+    progress::{EpochLoss, Progress},
+    rng::{Purpose, Stream},
+};
 use asperity_io::diagnostic::Fault;
 
 /// Width of [`WordBag`]'s vectors.
@@ -141,4 +145,20 @@ pub(crate) fn lexicon() -> Vec<LexiconEntry> {
             sure: 75.0,
         })
         .collect()
+}
+
+/// Listens to nothing.
+pub(crate) struct Silent;
+
+impl Progress for Silent {
+    fn epoch(&mut self, _: usize, _: usize, _: &EpochLoss) {}
+    fn text_epoch(&mut self, _: usize, _: usize, _: f32) {}
+}
+
+/// Listens to nothing.
+pub(crate) struct Unwatched;
+
+impl Watch for Unwatched {
+    fn begin(&mut self, _: &str, _: usize) {}
+    fn done(&mut self, _: usize) {}
 }

@@ -7,7 +7,7 @@ use crate::{
     kernel_ridge::KernelRidge,
     lda_retrieval::LdaRetrieval,
     material::MaterialLatent,
-    network::{Mode, Network, TextProjection, matrix},
+    network::{Mode, Network, matrix},
     normaliser::{AR, Coded, LSFS, Normaliser, TAP_VALUES},
     parameters::{Bound, Parameters, numbers},
     progress::EpochLoss,
@@ -22,7 +22,7 @@ const CHUNK: usize = 256;
 
 /// Modalities of an instance that an encoder sees.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Seen {
+pub(crate) enum Seen {
     /// AR models and traces.
     Both,
     /// AR models alone.
@@ -33,11 +33,11 @@ pub enum Seen {
 
 /// A Gaussian over the latent.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Gaussian {
+pub(crate) struct Gaussian {
     /// μ.
-    pub mean: [f32; LATENT],
+    pub(crate) mean: [f32; LATENT],
     /// log σ².
-    pub log_variance: [f32; LATENT],
+    pub(crate) log_variance: [f32; LATENT],
 }
 
 /// A trained model.
@@ -47,12 +47,12 @@ pub struct Trained {
     pub(crate) network: Network,
     pub(crate) parameters: Parameters,
     pub(crate) normaliser: Normaliser,
-    pub(crate) projection: TextProjection,
-    pub(crate) projection_parameters: Parameters,
     pub(crate) encoder: String,
     pub(crate) width: usize,
     pub(crate) materials: Vec<MaterialLatent>,
+    /// Standard deviation of posterior means about the mean of their material.
     pub(crate) spread: [f32; LATENT],
+    /// Losses of the first stage, an epoch each.
     pub(crate) history: Vec<EpochLoss>,
     /// Projects in place of the network where there is one.
     pub(crate) memory: Option<KernelRidge>,
@@ -63,59 +63,17 @@ pub struct Trained {
 }
 
 impl Trained {
-    /// Returns the configuration of its training.
-    #[must_use]
-    pub fn config(&self) -> &Config {
-        &self.config
-    }
-
-    /// Statistics and bounds of its training instances.
-    #[must_use]
-    pub fn normaliser(&self) -> &Normaliser {
-        &self.normaliser
-    }
-
-    /// The materials it was trained on, in the order they were given.
-    #[must_use]
-    pub fn materials(&self) -> &[MaterialLatent] {
-        &self.materials
-    }
-
-    /// Standard deviation of posterior means about the mean of their material.
-    #[must_use]
-    pub fn spread(&self) -> &[f32; LATENT] {
-        &self.spread
-    }
-
-    /// Losses of the first stage, an epoch each.
-    #[must_use]
-    pub fn history(&self) -> &[EpochLoss] {
-        &self.history
-    }
-
-    /// Numbers in the network.
-    #[must_use]
-    pub fn parameter_count(&self) -> usize {
-        self.parameters.count()
-    }
-
     /// Posteriors of instances, of which the encoders see what `seen` says.
-    #[must_use]
-    pub fn encode(&self, instances: &[&Instance], seen: Seen) -> Vec<Gaussian> {
+    pub(crate) fn encode(&self, instances: &[&Instance], seen: Seen) -> Vec<Gaussian> {
         let coding = self.normaliser.coding;
         let mut coded = Coded::of(coding, instances.iter().copied());
         self.normaliser.normalise(&mut coded);
-        self.encode_coded(&coded, seen)
-    }
-
-    pub(crate) fn encode_coded(&self, coded: &Coded, seen: Seen) -> Vec<Gaussian> {
-        posteriors(&self.network, &self.parameters, coded, seen)
+        posteriors(&self.network, &self.parameters, &coded, seen)
     }
 
     /// The instances that latents decode to: ordered LSFs, levels and samples within
     /// bounds, whatever the latents.
-    #[must_use]
-    pub fn decode(&self, latents: &[[f32; LATENT]]) -> Vec<Instance> {
+    pub(crate) fn decode(&self, latents: &[[f32; LATENT]]) -> Vec<Instance> {
         let device = Device::flex();
         let bound = self.parameters.bind(&device);
         let mut instances = Vec::with_capacity(latents.len());
@@ -160,7 +118,7 @@ impl Trained {
                 // Rounding may reach a variance of zero, and LSFs pressed together an infinite
                 // gain: their product would be no number.
                 Excitation::Variance => excitation[bin].clamp(least, most),
-                Excitation::Level | Excitation::LogSigma => excitation[bin],
+                Excitation::Level => excitation[bin],
             };
             let level_db = coding::decode(coding, lsf_rad, code);
             instance.level_db[bin] = level_db.clamp(low, high);
@@ -184,8 +142,7 @@ impl Trained {
     }
 
     /// The latents that text vectors project to.
-    #[must_use]
-    pub fn project(&self, vectors: &[&[f32]]) -> Vec<[f32; LATENT]> {
+    pub(crate) fn project(&self, vectors: &[&[f32]]) -> Vec<[f32; LATENT]> {
         if let Some(memory) = &self.memory {
             let means: Vec<_> = self.materials.iter().map(|m| m.mean).collect();
             let projected = vectors.chunks(CHUNK).flat_map(|chunk| {
@@ -199,11 +156,11 @@ impl Trained {
             return projected.collect();
         }
         let device = Device::flex();
-        let bound = self.projection_parameters.bind(&device);
+        let bound = self.parameters.bind(&device);
         let mut latents = Vec::with_capacity(vectors.len());
         for chunk in vectors.chunks(CHUNK) {
             let x = matrix(chunk.concat(), self.width, &device);
-            let z = self.projection.forward(&bound, x, &mut Mode::Evaluate);
+            let z = self.network.text.forward(&bound, x, &mut Mode::Evaluate);
             latents.extend(rows(&numbers(z)));
         }
         latents

@@ -17,13 +17,12 @@ use asperity_corpus::BINS;
 use burn_tensor::{Device, Tensor};
 use std::f64::consts::PI;
 
-/// A run between two epochs: all there is to save.
-#[derive(Debug, Clone, PartialEq)]
+/// A run between two epochs.
 pub(crate) struct State {
     /// Learned parameters.
     pub(crate) parameters: Parameters,
     /// The optimiser's memory.
-    pub(crate) adam: Adam,
+    adam: Adam,
     /// Losses of the epochs done.
     pub(crate) history: Vec<EpochLoss>,
 }
@@ -236,7 +235,7 @@ mod tests {
 
     #[test]
     fn the_divergence_fades_in_as_in_the_paper() {
-        let loss = Config::paper().unwrap().loss;
+        let loss = Config::find("paper").unwrap().loss;
         let beta = |epoch| kl_weight(&loss, epoch);
         assert_eq!(
             (beta(0), beta(20), beta(120), beta(199)),

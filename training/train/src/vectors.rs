@@ -2,7 +2,7 @@
 
 use crate::{
     error::FitError,
-    weights::{self, Read, Table},
+    weights::{self, Table},
 };
 use asperity::learned::text::{Encoded, TextEncoder};
 use asperity_io::diagnostic::Fault;
@@ -42,16 +42,16 @@ impl<'a> Remembered<'a> {
     /// Knows what a file of [`save`](Self::save) holds.
     ///
     /// # Errors
-    /// [`FitError::Checkpoint`] for a file of another encoder: one of another name or
+    /// [`FitError::Vectors`] for a file of another encoder: one of another name or
     /// width, or whose vector of the first text is another.
     pub fn load(encoder: &'a dyn TextEncoder, path: &Path) -> Result<Self, FitError> {
-        let fail = |message: String| FitError::Checkpoint {
+        let fail = |message: String| FitError::Vectors {
             path: path.to_owned(),
             message,
         };
         let bytes = std::fs::read(path).map_err(|e| fail(e.to_string()))?;
-        let mut read = Read::new(&bytes).map_err(fail)?;
-        let note: Note = serde_json::from_str(&read.note).map_err(|e| fail(e.to_string()))?;
+        let note = weights::note(&bytes).map_err(fail)?;
+        let note: Note = serde_json::from_str(&note).map_err(|e| fail(e.to_string()))?;
         let width = encoder.width();
         if note.encoder != encoder.name() {
             return Err(fail(format!(
@@ -59,18 +59,16 @@ impl<'a> Remembered<'a> {
                 note.encoder
             )));
         }
-        let vectors = read
-            .take("vectors", note.texts.len() * width)
-            .map_err(fail)?;
+        let vectors = weights::table(&bytes, "vectors", note.texts.len() * width).map_err(fail)?;
         let known: BTreeMap<_, _> = note
             .texts
             .into_iter()
             .zip(vectors.chunks(width).map(<[f32]>::to_vec))
             .collect();
         if let Some((text, vector)) = known.first_key_value() {
-            let fresh = encoder.encode(text).map_err(|source| FitError::Caption {
+            let fresh = encoder.encode(text).map_err(|fault| FitError::Caption {
                 caption: text.clone(),
-                source,
+                source: fault.into(),
             })?;
             let apart = fresh.vector.iter().zip(vector).map(|(x, y)| (x - y).abs());
             if apart.fold(0.0, f32::max) > TOLERANCE {
@@ -88,7 +86,7 @@ impl<'a> Remembered<'a> {
     /// # Errors
     /// [`FitError::Output`] when the file cannot be written.
     pub fn save(&self, path: &Path) -> Result<(), FitError> {
-        let fail = |message: String| FitError::Checkpoint {
+        let fail = |message: String| FitError::Vectors {
             path: path.to_owned(),
             message,
         };

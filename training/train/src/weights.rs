@@ -1,9 +1,7 @@
 //! Named matrices as safetensors.
 
 use crate::{
-    attribute_regression::AttributeRegression,
-    kernel_ridge::KernelRidge,
-    parameters::{Parameter, Parameters},
+    attribute_regression::AttributeRegression, kernel_ridge::KernelRidge, parameters::Parameter,
     trained::Trained,
 };
 use asperity::learned::description::LATENT;
@@ -62,73 +60,30 @@ pub(crate) fn write(tables: &[(String, Table)], note: &str) -> Result<Vec<u8>, S
     safetensors::serialize(views, Some(metadata)).map_err(|e| e.to_string())
 }
 
-/// Tables by name, and the note.
-pub(crate) struct Read {
-    tables: HashMap<String, Vec<f32>>,
-    pub(crate) note: String,
+/// The note of a file of named tables.
+pub(crate) fn note(bytes: &[u8]) -> Result<String, String> {
+    let (_, metadata) = SafeTensors::read_metadata(bytes).map_err(|e| e.to_string())?;
+    let note = metadata.metadata().as_ref().and_then(|m| m.get(NOTE));
+    note.cloned()
+        .ok_or_else(|| "not written by asperity-train".into())
 }
 
-impl Read {
-    /// Reads a file of f32.
-    pub(crate) fn new(bytes: &[u8]) -> Result<Self, String> {
-        let (_, metadata) = SafeTensors::read_metadata(bytes).map_err(|e| e.to_string())?;
-        let note = metadata
-            .metadata()
-            .as_ref()
-            .and_then(|m| m.get(NOTE))
-            .cloned();
-        let file = SafeTensors::deserialize(bytes).map_err(|e| e.to_string())?;
-        let mut tables = HashMap::new();
-        for (name, view) in file.tensors() {
-            if view.dtype() != Dtype::F32 {
-                return Err(format!("{name}: {:?}, expected F32", view.dtype()));
-            }
-            let (numbers, _) = view.data().as_chunks::<4>();
-            let values = numbers
-                .iter()
-                .map(|bytes| f32::from_le_bytes(*bytes))
-                .collect();
-            tables.insert(name, values);
-        }
-        Ok(Self {
-            tables,
-            note: note.ok_or("not written by asperity-train")?,
-        })
+/// A table of a file, which must have this many numbers.
+pub(crate) fn table(bytes: &[u8], name: &str, count: usize) -> Result<Vec<f32>, String> {
+    let file = SafeTensors::deserialize(bytes).map_err(|e| e.to_string())?;
+    let view = file.tensor(name).map_err(|e| e.to_string())?;
+    let (numbers, _) = view.data().as_chunks::<4>();
+    if view.dtype() != Dtype::F32 || numbers.len() != count {
+        return Err(format!("{name}: not {count} numbers in 32 bits"));
     }
-
-    /// Takes a table that must have this many numbers.
-    pub(crate) fn take(&mut self, name: &str, count: usize) -> Result<Vec<f32>, String> {
-        let values = self.take_any(name)?;
-        if values.len() == count {
-            Ok(values)
-        } else {
-            Err(format!(
-                "{name}: {} numbers, expected {count}",
-                values.len()
-            ))
-        }
-    }
-
-    /// Takes a table of any size.
-    pub(crate) fn take_any(&mut self, name: &str) -> Result<Vec<f32>, String> {
-        self.tables
-            .remove(name)
-            .ok_or_else(|| format!("{name}: missing"))
-    }
+    Ok(numbers.iter().map(|x| f32::from_le_bytes(*x)).collect())
 }
 
-/// `weights.safetensors` of a model: parameters as the optimiser left them, those of the
-/// text projection as the graph has them, the examples of its memory, and the statistics of
-/// the normaliser.
+/// `weights.safetensors` of a model: parameters as the optimiser left them, the examples of its
+/// memory, and the statistics of the normaliser.
 pub(crate) fn model(trained: &Trained) -> Result<Vec<u8>, String> {
     let table = |p: &Parameter| (p.name.clone(), Table::new(&p.values, p.columns));
-    let is_text = |p: &&Parameter| p.name.starts_with("text.");
-    let own = trained.parameters.iter().filter(|p| !is_text(p)).map(table);
-    let text = trained
-        .projection_parameters
-        .iter()
-        .filter(is_text)
-        .map(table);
+    let own = trained.parameters.iter().map(table);
     let normaliser = &trained.normaliser;
     let statistics = [
         ("ar_mean", &normaliser.ar_mean),
@@ -150,7 +105,7 @@ pub(crate) fn model(trained: &Trained) -> Result<Vec<u8>, String> {
     );
     let memory = trained.memory.iter().flat_map(memory);
     let feel = trained.feel.iter().flat_map(feel);
-    let all = own.chain(text).chain(memory).chain(feel).chain(statistics);
+    let all = own.chain(memory).chain(feel).chain(statistics);
     let tables: Vec<_> = all.chain([bounds]).collect();
     write(&tables, "weights; matrices are inputs × outputs")
 }
@@ -183,15 +138,4 @@ fn feel(feel: &AttributeRegression) -> [(String, Table); 4] {
         let columns = values.len().min(feel.mean.len());
         (format!("feel.{name}"), Table::new(values, columns))
     })
-}
-
-/// The tables of parameters under a prefix.
-pub(crate) fn tables(prefix: &str, parameters: &Parameters) -> Vec<(String, Table)> {
-    let named = |p: &Parameter| {
-        (
-            format!("{prefix}.{}", p.name),
-            Table::new(&p.values, p.columns),
-        )
-    };
-    parameters.iter().map(named).collect()
 }

@@ -21,7 +21,7 @@ const NEAR: f32 = 0.8;
 /// Number of folds: every fifth group is held out.
 const FOLDS: usize = 5;
 /// A prediction is right within so many points of each rating.
-pub const TOLERANCE: f64 = 15.0;
+const TOLERANCE: f64 = 15.0;
 /// Quantile of the familiarity of phrases, each left out, below which a text is unfamiliar.
 const UNFAMILIAR: f64 = 0.05;
 
@@ -112,7 +112,7 @@ pub(crate) fn measure(
     let all: Vec<usize> = (captions_before(captions, materials)..)
         .take(phrases.len())
         .collect();
-    let mut left_out = memory.familiarity(&phrases, Some(&all));
+    let mut left_out = memory.familiarity(&phrases, &all);
     left_out.sort_by(f64::total_cmp);
     WordsHeldOut {
         phrases: asked.0.len(),

@@ -19,11 +19,7 @@ pub(crate) const LONGEST: usize = 5;
 #[must_use]
 pub fn key(name: &str) -> Option<String> {
     let tokens = normalise(name);
-    let words = tokens.iter().filter_map(|token| match token {
-        Token::Word(word) => Some(word.as_str()),
-        Token::Break(_) => None,
-    });
-    let words: Vec<&str> = words.collect();
+    let words: Vec<&str> = tokens.iter().filter_map(Token::word).collect();
     (1..=LONGEST).contains(&words.len()).then(|| key_of(&words))
 }
 

@@ -74,13 +74,7 @@ fn two_words(word: &str) -> Option<[String; 2]> {
 /// A prompt that is a name of several words with one error, even where the error makes another word:
 /// "patent lather". A word must be left over that says nothing by itself.
 fn whole(tokens: &mut Vec<Token>) -> Option<Correction> {
-    let words: Option<Vec<&str>> = tokens
-        .iter()
-        .map(|token| match token {
-            Token::Word(word) => Some(word.as_str()),
-            Token::Break(_) => None,
-        })
-        .collect();
+    let words: Option<Vec<&str>> = tokens.iter().map(Token::word).collect();
     let words = words.filter(|words| (2..=lexicon::LONGEST).contains(&words.len()))?;
     let says = |word: &&str| {
         let name = lexicon::name(&[*word]).is_some();

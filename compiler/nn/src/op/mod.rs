@@ -7,7 +7,6 @@ mod cast;
 mod compare;
 mod concat;
 mod constant_product;
-mod cumsum;
 mod expand;
 mod gather;
 pub(crate) mod layout;
@@ -228,7 +227,6 @@ fn lookup(
         "Sqrt" => unary(Unary::Sqrt),
         "Erf" => unary(Unary::Erf),
         "Neg" => unary(Unary::Neg),
-        "Softplus" => unary(Unary::Softplus),
         "Clip" => (1..=3, Box::new(unary::Clip)),
         "MatMul" => (2..=2, Box::new(matmul::MatMul)),
         "Gemm" => (2..=3, Box::new(matmul::Gemm::parse(attributes)?)),
@@ -241,7 +239,6 @@ fn lookup(
         "ReduceSum" => reduce::Reduce::parse(reduce::Reduction::Sum, attributes, opset)?,
         "ReduceL2" => reduce::Reduce::parse(reduce::Reduction::L2, attributes, opset)?,
         "ArgMax" => (1..=1, Box::new(argmax::ArgMax::parse(attributes)?)),
-        "CumSum" => (2..=2, Box::new(cumsum::CumSum::parse(attributes)?)),
         "Gather" => (2..=2, Box::new(gather::Gather::parse(attributes)?)),
         "GatherND" => (2..=2, Box::new(gather::GatherNd::parse(attributes)?)),
         "Slice" => (3..=5, Box::new(slice::Slice)),

@@ -1,4 +1,4 @@
-//! Functions of one f32: Relu, Sigmoid, Tanh, Exp, Log, Sqrt, Erf, Neg, Softplus, Clip.
+//! Functions of one f32: Relu, Sigmoid, Tanh, Exp, Log, Sqrt, Erf, Neg, Clip.
 
 use crate::{
     ElementType, NodeRefusal, OpError, Tensor,
@@ -17,7 +17,6 @@ pub(crate) enum Unary {
     Sqrt,
     Erf,
     Neg,
-    Softplus,
 }
 
 impl Operator for Unary {
@@ -42,7 +41,6 @@ impl Operator for Unary {
                 Self::Sqrt => apply(data, math::sqrt),
                 Self::Erf => math::erf_all(data),
                 Self::Neg => apply(data, |x| -x),
-                Self::Softplus => apply(data, math::softplus),
             },
             _ => return Err(OpError::Input(0)),
         }

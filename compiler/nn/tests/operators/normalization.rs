@@ -2,7 +2,7 @@
 
 use asperity_nn::{Tensor, build::Attribute};
 
-use super::{apply, apply_to, counted, f32s, i64s, refusal};
+use super::{apply, counted, f32s, i64s, refusal};
 
 fn axis(value: i64) -> [(&'static str, Attribute); 1] {
     [("axis", Attribute::Int(value))]
@@ -126,20 +126,4 @@ fn argmax_takes_the_first_of_equals_or_the_last() {
     assert_eq!(apply("ArgMax", &[x()], &last), i64s(&[2], &[2, 0]));
     let ids = Some(i64s(&[1, 4], &[3, 9, 49_407, 0]));
     assert_eq!(apply("ArgMax", &[ids], &axis(1)), i64s(&[1, 1], &[2]));
-}
-
-#[test]
-fn running_sums() {
-    let x = || f32s(&[2, 3], &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
-    let last = || i64s(&[], &[-1]);
-    let sums = apply_to("CumSum", &[x(), last()]);
-    assert_eq!(sums, f32s(&[2, 3], &[1.0, 3.0, 6.0, 4.0, 9.0, 15.0]));
-    let first = apply_to("CumSum", &[x(), i64s(&[1], &[0])]);
-    assert_eq!(first, f32s(&[2, 3], &[1.0, 2.0, 3.0, 5.0, 7.0, 9.0]));
-    let flags = [
-        ("exclusive", Attribute::Int(1)),
-        ("reverse", Attribute::Int(1)),
-    ];
-    let backwards = apply("CumSum", &[Some(x()), Some(last())], &flags);
-    assert_eq!(backwards, f32s(&[2, 3], &[5.0, 3.0, 0.0, 11.0, 6.0, 0.0]));
 }

@@ -4,8 +4,6 @@
 //! |---|---|
 //! | [`wire`] | headers as bytes |
 //! | [`server`] | serves ports; a transfer that has no answer yet stays pending |
-//! | [`client`] | a client of our own, for tests |
 
-pub mod client;
 pub mod server;
 pub mod wire;

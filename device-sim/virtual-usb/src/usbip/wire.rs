@@ -45,8 +45,6 @@ pub mod status {
     pub const STALLED: i32 = -32;
     /// Taken back (ECONNRESET).
     pub const TAKEN_BACK: i32 = -104;
-    /// Cannot be done (EINVAL).
-    pub const INVALID: i32 = -22;
 }
 
 /// Code and status of a request or reply before a device is imported.

@@ -5,8 +5,6 @@
 
 /// Success: the newest data are less old than the time guard, so nothing was asked of the device.
 pub(super) const TIMEGUARD: i32 = 1;
-/// Success: a motor could not give all that was asked.
-pub(super) const MOTOR_SATURATED: i32 = 2;
 /// Places of a status.
 pub(super) const MAX_STATUS: usize = 17;
 /// Place in a status: whether the device is calibrated.

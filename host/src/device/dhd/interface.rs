@@ -8,9 +8,8 @@
 use super::{constants as dhd, library::FUNCTIONS};
 
 /// Every constant that is used, by its name in `constants`.
-const DESCRIBED: [(&str, i32, i32); 16] = [
+const DESCRIBED: [(&str, i32, i32); 15] = [
     ("TIMEGUARD", 1, dhd::TIMEGUARD),
-    ("MOTOR_SATURATED", 2, dhd::MOTOR_SATURATED),
     ("MAX_STATUS", 17, dhd::MAX_STATUS as i32),
     ("StatusIndex.RESET", 3, dhd::STATUS_RESET as i32),
     ("StatusIndex.FORCE", 5, dhd::STATUS_FORCE as i32),
@@ -33,17 +32,13 @@ const DESCRIBED: [(&str, i32, i32); 16] = [
 
 /// Every function with the `argtypes` and `restype` of `dhd/__init__.py`, in Rust's words. `Id` is
 /// `c_byte`.
-const DECLARED: [(&str, &str); 13] = [
+const DECLARED: [(&str, &str); 12] = [
     ("dhdOpen", "fn() -> c_int"),
     ("dhdOpenSerial", "fn(c_int) -> c_int"),
     ("dhdClose", "fn(Id) -> c_int"),
     ("dhdEnableForce", "fn(bool, Id) -> c_int"),
     (
         "dhdGetPosition",
-        "fn(*mut c_double, *mut c_double, *mut c_double, Id) -> c_int",
-    ),
-    (
-        "dhdGetLinearVelocity",
         "fn(*mut c_double, *mut c_double, *mut c_double, Id) -> c_int",
     ),
     ("dhdGetButtonMask", "fn(Id) -> c_uint"),

@@ -17,7 +17,6 @@ symbols! {
         close = "dhdClose": fn(Id) -> c_int;
         enable_force = "dhdEnableForce": fn(bool, Id) -> c_int;
         get_position = "dhdGetPosition": fn(*mut c_double, *mut c_double, *mut c_double, Id) -> c_int;
-        get_linear_velocity = "dhdGetLinearVelocity": fn(*mut c_double, *mut c_double, *mut c_double, Id) -> c_int;
         get_button_mask = "dhdGetButtonMask": fn(Id) -> c_uint;
         set_force = "dhdSetForce": fn(c_double, c_double, c_double, Id) -> c_int;
         get_status = "dhdGetStatus": fn(*mut c_int, Id) -> c_int;
@@ -107,26 +106,18 @@ impl Dhd {
             .map(|result| ([x, y, z], result != TIMEGUARD))
     }
 
-    /// Velocity, m/s, in the device's frame.
-    pub(super) fn velocity(&self, device: Number) -> Result<[f64; 3], Code> {
-        let [mut x, mut y, mut z] = [0.0; 3];
-        // SAFETY: room for a number each.
-        let result = unsafe {
-            (self.functions.get_linear_velocity)(&raw mut x, &raw mut y, &raw mut z, device.0)
-        };
-        self.checked(result).map(|_| [x, y, z])
-    }
-
     /// Held buttons, a bit each.
     pub(super) fn buttons(&self, device: Number) -> u32 {
         // SAFETY: a number from `open`.
         unsafe { (self.functions.get_button_mask)(device.0) }
     }
 
-    /// Commands a force, N, in the device's frame. Gives the kind of success.
-    pub(super) fn set_force(&self, device: Number, [x, y, z]: [f64; 3]) -> Result<i32, Code> {
+    /// Commands a force, N, in the device's frame. A force that a motor cannot give in full is
+    /// shortened, which is a success.
+    pub(super) fn set_force(&self, device: Number, [x, y, z]: [f64; 3]) -> Result<(), Code> {
         // SAFETY: plain numbers.
         self.checked(unsafe { (self.functions.set_force)(x, y, z, device.0) })
+            .map(drop)
     }
 
     pub(super) fn status(&self, device: Number) -> Result<[i32; MAX_STATUS], Code> {

@@ -60,9 +60,6 @@ pub struct Dhd {
     serial: Option<u16>,
     /// `None` while the device is away.
     device: Option<Number>,
-    last: Reading,
-    velocity_m_s: [f32; 3],
-    saturated: u64,
 }
 
 impl Dhd {
@@ -100,28 +97,7 @@ impl Dhd {
             functions,
             serial,
             device: Some(device),
-            last: Reading {
-                position_m: [0.0; 3],
-                fresh: false,
-                buttons: 0,
-            },
-            velocity_m_s: [0.0; 3],
-            saturated: 0,
         })
-    }
-
-    /// Velocity of the last fresh reading as the library estimates it, m/s, in the world frame;
-    /// zero until it has an estimate.
-    #[must_use]
-    pub fn velocity_m_s(&self) -> [f32; 3] {
-        self.velocity_m_s
-    }
-
-    /// Forces that a motor could not give in full. The library shortens them and keeps their
-    /// direction.
-    #[must_use]
-    pub fn saturated(&self) -> u64 {
-        self.saturated
     }
 
     fn device(&self) -> Result<Number, DeviceError> {
@@ -259,18 +235,11 @@ impl Device for Dhd {
             .functions
             .position(device)
             .map_err(|code| self.failed(code))?;
-        if fresh {
-            // The estimate needs two positions, so it is missing at first.
-            if let Ok(velocity) = self.functions.velocity(device) {
-                self.velocity_m_s = to_world(velocity);
-            }
-        }
-        self.last = Reading {
+        Ok(Reading {
             position_m: to_world(position_m),
             fresh,
             buttons: self.functions.buttons(device),
-        };
-        Ok(self.last)
+        })
     }
 
     fn write(&mut self, force_n: [f32; 3]) -> Result<(), DeviceError> {
@@ -278,28 +247,21 @@ impl Device for Dhd {
         // The runtime gives no such force. Nobody else's may reach an arm.
         let finite = force_n.iter().all(|x| x.is_finite());
         let force_n = if finite { force_n } else { [0.0; 3] };
-        match self.functions.set_force(device, to_device(force_n)) {
-            Ok(kind) => {
-                self.saturated += u64::from(kind == dhd::MOTOR_SATURATED);
-                Ok(())
+        let sent = self.functions.set_force(device, to_device(force_n));
+        sent.map_err(|code| {
+            let failed = self.failed(code);
+            let status = self.device.map(|device| self.functions.status(device));
+            match status {
+                Some(Ok(status))
+                    if status[dhd::STATUS_FORCE] == 0
+                        && status[dhd::STATUS_FORCEOFFCAUSE] == dhd::FORCE_OFF_VELOCITY =>
+                {
+                    DeviceError::ForceExceeded
+                }
+                Some(Ok(status)) if status[dhd::STATUS_ERROR] != 0 => DeviceError::Vendor(code.0),
+                _ => failed,
             }
-            Err(code) => {
-                let failed = self.failed(code);
-                let status = self.device.map(|device| self.functions.status(device));
-                Err(match status {
-                    Some(Ok(status))
-                        if status[dhd::STATUS_FORCE] == 0
-                            && status[dhd::STATUS_FORCEOFFCAUSE] == dhd::FORCE_OFF_VELOCITY =>
-                    {
-                        DeviceError::ForceExceeded
-                    }
-                    Some(Ok(status)) if status[dhd::STATUS_ERROR] != 0 => {
-                        DeviceError::Vendor(code.0)
-                    }
-                    _ => failed,
-                })
-            }
-        }
+        })
     }
 
     fn recover(&mut self) -> Result<(), DeviceError> {

@@ -40,8 +40,6 @@ pub const RAD_PER_COUNT: f64 = std::f64::consts::TAU / COUNTS_PER_TURN * 14.25 /
 
 /// Centre of the workspace in the device's frame, m: the origin of ours.
 pub const CENTRE_M: [f64; 3] = [0.0, 0.0, 0.125];
-/// Radius of the ball around the centre that positions are specified for, m.
-pub const WORKSPACE_RADIUS_M: f64 = 0.045;
 
 /// Largest force, N: "more than 2 lb", as its maker published.
 pub const PEAK_FORCE_N: f32 = 8.9;

@@ -166,8 +166,11 @@ pub(crate) fn norm(a: [f64; 3]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::geometry::{WORKSPACE_RADIUS_M, angle, count};
+    use super::super::geometry::{angle, count};
     use super::*;
+
+    /// Radius of the ball around the centre that positions are specified for, m.
+    const WORKSPACE_RADIUS_M: f64 = 0.045;
 
     /// Positions of the workspace on a grid of 5 mm.
     fn workspace() -> Vec<[f64; 3]> {

@@ -36,8 +36,6 @@ const STOP_FRAMES: usize = 16;
 /// Link statistics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct LinkCounts {
-    /// Commands that reached the device.
-    pub sent: u64,
     /// Answers.
     pub received: u64,
     /// Bytes that belonged to no answer.
@@ -59,7 +57,6 @@ impl std::ops::Add for LinkCounts {
 
     fn add(self, other: Self) -> Self {
         Self {
-            sent: self.sent + other.sent,
             received: self.received + other.received,
             skipped_bytes: self.skipped_bytes + other.skipped_bytes,
             short: self.short + other.short,
@@ -77,7 +74,6 @@ struct Shared {
     wanted: Slot,
     fault: AtomicU8,
     stop: AtomicBool,
-    sent: AtomicU64,
     received: AtomicU64,
     skipped: AtomicU64,
     short: AtomicU64,
@@ -151,7 +147,6 @@ impl Link {
         let of = |count: &AtomicU64| count.load(Ordering::Relaxed);
         let shared = &self.shared;
         LinkCounts {
-            sent: of(&shared.sent),
             received: of(&shared.received),
             skipped_bytes: of(&shared.skipped),
             short: of(&shared.short),
@@ -329,10 +324,7 @@ impl Motors {
 /// Sends one command; gives whether it reached the device as a whole.
 fn put(transport: &dyn Transport, shared: &Shared, command: &Command) -> bool {
     match transport.send(&command.encode(), PATIENCE) {
-        Ok(FRAME_BYTES) => {
-            shared.sent.fetch_add(1, Ordering::Relaxed);
-            true
-        }
+        Ok(FRAME_BYTES) => true,
         Ok(_) => {
             shared.short.fetch_add(1, Ordering::Relaxed);
             false

@@ -20,8 +20,8 @@
 //! [`trial`] runs one of them in the middle of a contact, and says what became of the force.
 
 mod injector;
-mod plan;
+mod kind;
 pub mod trial;
 
 pub use injector::Faulty;
-pub use plan::{InjectedFault, Plan};
+pub use kind::InjectedFault;

@@ -13,7 +13,7 @@ use serde::Serialize;
 use super::{Faulty, InjectedFault};
 use crate::device::supervised::{Plausible, Report, Supervised};
 use crate::device::{Description, Device, DeviceError, Reading};
-use crate::fault_plan::FaultKind as _;
+use crate::fault_plan::FaultPlan;
 
 /// Periods of a fault. A clock step skips as many at once.
 pub const LASTS: u32 = 20;
@@ -138,7 +138,7 @@ impl Trial<'_> {
     ) -> Result<Row, ConfigError> {
         let renderer = Renderer::new(self.config)?;
         let mut state = State::new(self.seed);
-        let faulty = Faulty::quiet(device);
+        let faulty = Faulty::new(device, FaultPlan::default(), 1);
         let mut device = Supervised::new(faulty, self.config, Plausible::default());
         let lasts = if kind == InjectedFault::ClockStep {
             1

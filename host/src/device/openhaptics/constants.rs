@@ -28,8 +28,6 @@ pub(super) const HD_TIMER_ERROR: u32 = 0x0304;
 pub(super) const HD_CURRENT_BUTTONS: u32 = 0x2000;
 /// Position of the stylus, mm.
 pub(super) const HD_CURRENT_POSITION: u32 = 0x2050;
-/// Velocity of the stylus, mm/s.
-pub(super) const HD_CURRENT_VELOCITY: u32 = 0x2051;
 /// Model, as text.
 pub(super) const HD_DEVICE_MODEL_TYPE: u32 = 0x2501;
 /// Vendor, as text.

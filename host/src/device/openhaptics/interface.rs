@@ -16,7 +16,7 @@ use super::{constants as hd, library::FUNCTIONS};
 
 /// Every constant that is used, as pyOpenHaptics has it. It calls `HD_EXCEEDED_MAX_FORCE`
 /// `HD_EXCEED_MAX_FORCE`.
-const DESCRIBED: [(&str, u32, u32); 30] = [
+const DESCRIBED: [(&str, u32, u32); 29] = [
     ("HD_SUCCESS", 0x000, hd::HD_SUCCESS),
     ("HD_WARM_MOTORS", 0x0200, hd::HD_WARM_MOTORS),
     ("HD_EXCEED_MAX_FORCE", 0x0201, hd::HD_EXCEEDED_MAX_FORCE),
@@ -41,7 +41,6 @@ const DESCRIBED: [(&str, u32, u32); 30] = [
     ("HD_TIMER_ERROR", 0x0304, hd::HD_TIMER_ERROR),
     ("HD_CURRENT_BUTTONS", 0x2000, hd::HD_CURRENT_BUTTONS),
     ("HD_CURRENT_POSITION", 0x2050, hd::HD_CURRENT_POSITION),
-    ("HD_CURRENT_VELOCITY", 0x2051, hd::HD_CURRENT_VELOCITY),
     ("HD_DEVICE_MODEL_TYPE", 0x2501, hd::HD_DEVICE_MODEL_TYPE),
     ("HD_DEVICE_VENDOR", 0x2503, hd::HD_DEVICE_VENDOR),
     (

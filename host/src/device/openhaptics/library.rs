@@ -173,11 +173,6 @@ impl Hd {
         self.doubles(parameter)[0]
     }
 
-    fn vector(&self, parameter: u32) -> [f64; 3] {
-        let [x, y, z, ..] = self.doubles(parameter);
-        [x, y, z]
-    }
-
     fn set_force(&self, force_n: [f64; 3]) {
         // SAFETY: this parameter is read as three numbers.
         unsafe { (self.functions.set_doubles)(hd::HD_CURRENT_FORCE, force_n.as_ptr()) }
@@ -264,14 +259,13 @@ extern "C" fn callback(user: *mut c_void) -> c_uint {
         scheduled,
     } = unsafe { &*user.cast::<Context>() };
     hd.begin_frame(*device);
-    let position_mm = hd.vector(hd::HD_CURRENT_POSITION);
-    let velocity_mm_s = hd.vector(hd::HD_CURRENT_VELOCITY);
+    let [x, y, z, ..] = hd.doubles(hd::HD_CURRENT_POSITION);
     let buttons = hd.integer(hd::HD_CURRENT_BUTTONS);
     hd.set_force(scheduled.force_n());
     hd.end_frame(*device);
     match hd.error() {
         Some(code) => scheduled.failed(code.0),
-        None => scheduled.measured(position_mm, velocity_mm_s, buttons.cast_unsigned()),
+        None => scheduled.measured([x, y, z], buttons.cast_unsigned()),
     }
     hd::HD_CALLBACK_CONTINUE
 }

@@ -84,7 +84,6 @@ pub struct OpenHaptics {
     /// `None` while the device is away.
     session: Option<ScheduledDevice>,
     last: Reading,
-    velocity_m_s: [f32; 3],
     last_number: u32,
     quiet: u32,
     lost: bool,
@@ -124,18 +123,11 @@ impl OpenHaptics {
                 fresh: false,
                 buttons: 0,
             },
-            velocity_m_s: [0.0; 3],
             last_number: 0,
             quiet: 0,
             lost: false,
             _claim: claim,
         })
-    }
-
-    /// Velocity of the last fresh reading as the library estimates it, m/s, in the world frame.
-    #[must_use]
-    pub fn velocity_m_s(&self) -> [f32; 3] {
-        self.velocity_m_s
     }
 }
 
@@ -198,7 +190,6 @@ impl Device for OpenHaptics {
             Some(newest) => {
                 self.quiet = 0;
                 self.last_number = newest.number;
-                self.velocity_m_s = to_world(newest.velocity_m_s);
                 self.last = Reading {
                     position_m: to_world(newest.position_m),
                     fresh: true,

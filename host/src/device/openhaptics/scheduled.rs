@@ -21,8 +21,6 @@ pub(super) struct Measured {
     pub(super) number: u32,
     /// Position, m.
     pub(super) position_m: [f32; 3],
-    /// Velocity, m/s.
-    pub(super) velocity_m_s: [f32; 3],
     /// Held buttons.
     pub(super) buttons: u32,
 }
@@ -30,7 +28,7 @@ pub(super) struct Measured {
 /// State shared by both threads.
 #[derive(Debug, Default)]
 pub(super) struct Scheduled {
-    measured: Snapshot<7>,
+    measured: Snapshot<4>,
     wanted: Snapshot<3>,
     /// An error code, with a bit above it that says that there is one.
     fault: AtomicU64,
@@ -56,11 +54,10 @@ impl Scheduled {
 
     /// The newest measurement; `None` before the first. Servo thread.
     pub(super) fn newest(&self) -> Option<Measured> {
-        let (number, [x, y, z, vx, vy, vz, buttons]) = self.measured.newest()?;
+        let (number, [x, y, z, buttons]) = self.measured.newest()?;
         Some(Measured {
             number,
             position_m: [x, y, z].map(f32::from_bits),
-            velocity_m_s: [vx, vy, vz].map(f32::from_bits),
             buttons,
         })
     }
@@ -120,10 +117,9 @@ impl Scheduled {
     }
 
     /// A good period. Scheduler's thread.
-    pub(super) fn measured(&self, position_mm: [f64; 3], velocity_mm_s: [f64; 3], buttons: u32) {
-        let metres = |mm: f64| ((mm * 1e-3) as f32).to_bits();
-        let [[x, y, z], [vx, vy, vz]] = [position_mm, velocity_mm_s].map(|v| v.map(metres));
-        self.measured.publish([x, y, z, vx, vy, vz, buttons]);
+    pub(super) fn measured(&self, position_mm: [f64; 3], buttons: u32) {
+        let [x, y, z] = position_mm.map(|mm| ((mm * 1e-3) as f32).to_bits());
+        self.measured.publish([x, y, z, buttons]);
         self.periods.fetch_add(1, Relaxed);
     }
 

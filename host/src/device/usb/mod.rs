@@ -4,7 +4,6 @@
 //! |---|---|
 //! | [`ids`] | which ids are which device |
 //! | [`scan`] | what is plugged in, and whether this user may use it |
-//! | [`watch`] | what is plugged in and out |
 //! | [`permission`] | the udev rule that lets a user in |
 //! | [`absence`] | why USB as a whole cannot be used |
 //! | [`error`] | what can be missing, with its remedy |
@@ -17,7 +16,6 @@ pub mod error;
 pub mod ids;
 pub mod permission;
 pub mod scan;
-pub mod watch;
 
 pub use absence::Absence;
 pub use error::UsbError;

@@ -36,14 +36,6 @@ pub struct Wanted {
 }
 
 impl Wanted {
-    /// Everything, at priority 80 of SCHED_FIFO, on no processor in particular.
-    pub const REAL_TIME: Self = Self {
-        policy: Policy::Fifo { priority: 80 },
-        lock_memory: true,
-        cpu: None,
-        shallow_idle: true,
-    };
-
     /// Nothing: what an ordinary thread has.
     pub const NOTHING: Self = Self {
         policy: Policy::Other,

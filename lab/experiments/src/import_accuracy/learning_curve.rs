@@ -1,13 +1,11 @@
-//! A learning curve: how well textures come back after so many seconds, and what the check of a recording finds.
+//! A learning curve: how well textures come back after so many seconds.
 
 use asperity::{model::TextureModel, pipeline::Clock, sources::recording};
-use asperity_recording::check::Severity;
 use rayon::prelude::*;
 use serde::Serialize;
 
 use super::{
     error::ImportAccuracyError,
-    fault::{RecordingFault, faulty},
     perform::{Strokes, Until, perform},
     sensors::{Sensors, record},
     truth::{Cell, Comparison, compare},
@@ -49,11 +47,11 @@ pub fn learn(
         .map(|(index, texture)| {
             let seed = seed.wrapping_mul(1000).wrapping_add(index as u64);
             let performance = perform(texture, strokes, Until::Strokes(seconds), seed)?;
-            let folder = Scratch::new(seed)?;
+            let folder = tempfile::tempdir()?;
             let mut sensors = Sensors::seeded(seed);
             alter(&mut sensors);
-            record(&performance, texture, &sensors, seed, &folder.0)?;
-            let analysis = recording::analyse(&folder.0, false, Clock::default());
+            record(&performance, texture, &sensors, seed, folder.path())?;
+            let analysis = recording::analyse(folder.path(), false, Clock::default());
             done();
             Ok(match analysis {
                 Ok(analysis) => Row {
@@ -75,25 +73,6 @@ pub fn learn(
             })
         })
         .collect()
-}
-
-/// A folder for the files of one recording, removed when it is dropped.
-struct Scratch(std::path::PathBuf);
-
-impl Scratch {
-    fn new(seed: u64) -> std::io::Result<Self> {
-        let name = format!("asperity-bench-{}-{seed}", std::process::id());
-        let path = std::env::temp_dir().join(name);
-        std::fs::create_dir_all(&path)?;
-        Ok(Self(path))
-    }
-}
-
-impl Drop for Scratch {
-    fn drop(&mut self) {
-        // What is left in the folder for temporary files does no harm.
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
 }
 
 /// Largest error that a cell should have, dB RMS.
@@ -201,89 +180,4 @@ pub fn summary(rows: &[Row]) -> Figures {
                 .map(|row| row.vertices as f64),
         ),
     }
-}
-
-/// Results of the check on faulty and on clean recordings.
-#[derive(Debug, Clone, Serialize)]
-pub struct Checks {
-    /// Faulty recordings.
-    pub faulty: usize,
-    /// Those whose fault was found and named with its file.
-    pub named: usize,
-    /// Missed faults.
-    pub missed: Vec<String>,
-    /// Clean recordings.
-    pub clean: usize,
-    /// Warnings and faults in clean recordings.
-    pub false_alarms: Vec<String>,
-}
-
-/// Every so many clean recordings, one has strokes of a single sine.
-const SINES: usize = 4;
-
-/// Checks `count` faulty and as many clean recordings of some seconds.
-///
-/// # Errors
-/// [`ImportAccuracyError`] of a texture that cannot be rendered or recorded.
-pub fn checks(
-    textures: &[TextureModel],
-    count: usize,
-    seconds: f64,
-    seed: u64,
-    done: impl Fn() + Sync,
-) -> Result<Checks, ImportAccuracyError> {
-    let one = |index: usize| -> Result<(Option<String>, Vec<String>), ImportAccuracyError> {
-        let seed = seed.wrapping_mul(10_000).wrapping_add(index as u64);
-        let texture = &textures[index % textures.len()];
-        let perform = |strokes| perform(texture, strokes, Until::Seconds(seconds), seed);
-        let performance = perform(Strokes::Steady)?;
-        let clean = if index % SINES == SINES - 1 {
-            &perform(Strokes::Sine)?
-        } else {
-            &performance
-        };
-        let folder = Scratch::new(seed)?;
-        record(clean, texture, &Sensors::seeded(seed), seed, &folder.0)?;
-        let alarms = match recording::check(&folder.0) {
-            Ok((_, checked, _)) => checked
-                .at_least(Severity::Warning)
-                .map(|f| format!("{}, seed {seed}: {f}", texture.name))
-                .collect(),
-            Err(error) => vec![format!("{}, seed {seed}: {error}", texture.name)],
-        };
-        let fault = RecordingFault::ALL[index % RecordingFault::ALL.len()];
-        let file = faulty(&performance, texture, fault, seed, &folder.0)?;
-        let missed = match recording::check(&folder.0) {
-            Ok((_, checked, _)) if fault.is_named(&checked, file) => None,
-            Ok((_, checked, _)) => {
-                let found: Vec<String> = checked
-                    .at_least(Severity::Good)
-                    .map(|f| format!("{} {}", f.file, f.what))
-                    .collect();
-                Some(format!(
-                    "{}, seed {seed}: {fault:?} in {file}; found: {}",
-                    texture.name,
-                    found.join("; ")
-                ))
-            }
-            Err(error) => Some(format!(
-                "{}, seed {seed}: {fault:?} in {file}: {error}",
-                texture.name
-            )),
-        };
-        done();
-        Ok((missed, alarms))
-    };
-    let results: Vec<_> = (0..count)
-        .into_par_iter()
-        .map(one)
-        .collect::<Result<_, _>>()?;
-    let missed: Vec<String> = results.iter().filter_map(|r| r.0.clone()).collect();
-    Ok(Checks {
-        faulty: count,
-        named: count - missed.len(),
-        missed,
-        clean: count,
-        false_alarms: results.into_iter().flat_map(|r| r.1).collect(),
-    })
 }

@@ -5,7 +5,6 @@
 //! of their own, force with noise and bias, the measured position. It never sees the texture.
 
 mod error;
-mod fault;
 mod learning_curve;
 mod perform;
 mod sensors;
@@ -14,8 +13,7 @@ mod tool;
 mod truth;
 
 pub use error::ImportAccuracyError;
-pub use fault::{RecordingFault, faulty};
-pub use learning_curve::{Checks, Figures, GOAL_DB, LOUD_DB, Row, checks, learn, summary};
+pub use learning_curve::{Figures, GOAL_DB, LOUD_DB, Row, learn, summary};
 pub use perform::{Performance, Strokes, Until, perform};
 pub use sensors::{BENT_S, GRAVITY_M_S2, HAND_HALF, across, of_tool};
 pub use sensors::{Sensors, record};

@@ -9,7 +9,7 @@ use asperity_sim::{
     device::DeviceConfig,
     hand::{
         Grip, GripPreset, Script,
-        recording::{free, script, sine},
+        recording::{free, script},
     },
     servo::RenderedTexture,
     session::{Record, Session},
@@ -37,8 +37,6 @@ pub enum Strokes {
     Steady,
     /// With speed and force changing all the time.
     Free,
-    /// To and fro as evenly as a machine.
-    Sine,
 }
 
 /// A performance, tick by tick.
@@ -63,7 +61,6 @@ pub fn perform(
     let script: fn(u64, f64, (f64, f64)) -> Script = match strokes {
         Strokes::Steady => script,
         Strokes::Free => free,
-        Strokes::Sine => sine,
     };
     let fail = |what: String| ImportAccuracyError::Texture {
         name: texture.name.clone(),

@@ -90,13 +90,13 @@ impl Sensors {
 
 /// Sensor data, in the units of the files.
 #[derive(Debug, Clone)]
-pub(super) struct Measured {
+struct Measured {
     /// m/s², at the accelerometer's rate.
-    pub(super) accel: [Vec<f32>; 3],
+    accel: [Vec<f32>; 3],
     /// N.
-    pub(super) force: [Vec<f32>; 3],
+    force: [Vec<f32>; 3],
     /// mm.
-    pub(super) position: [Vec<f32>; 3],
+    position: [Vec<f32>; 3],
 }
 
 /// Writes a recording of a performance into a folder.
@@ -111,16 +111,11 @@ pub fn record(
     folder: &Path,
 ) -> io::Result<()> {
     let measured = measure(performance, &texture.taps, sensors, seed);
-    write(&measured, sensors, &texture.name, folder, "mm")
+    write(&measured, sensors, &texture.name, folder)
 }
 
 /// Samples of every sensor.
-pub(super) fn measure(
-    performance: &Performance,
-    taps: &TapBank,
-    sensors: &Sensors,
-    seed: u64,
-) -> Measured {
+fn measure(performance: &Performance, taps: &TapBank, sensors: &Sensors, seed: u64) -> Measured {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let mut gauss = || (0..12).map(|_| unit(&mut rng)).sum::<f64>() - 6.0;
     let records = &performance.records;
@@ -298,13 +293,7 @@ pub(super) fn tap_at(taps: &TapBank, speed_m_s: f64) -> Option<Vec<f64>> {
 }
 
 /// Writes the files: acceleration as WAV of 24 bits, force as NumPy, position as CSV.
-pub(super) fn write(
-    measured: &Measured,
-    sensors: &Sensors,
-    name: &str,
-    folder: &Path,
-    position_unit: &str,
-) -> io::Result<()> {
+fn write(measured: &Measured, sensors: &Sensors, name: &str, folder: &Path) -> io::Result<()> {
     let spec = hound::WavSpec {
         channels: 3,
         sample_rate: sensors.accel_hz as u32,
@@ -354,13 +343,10 @@ pub(super) fn write(
         csv.push('\n');
     }
     fs::write(folder.join("position.csv"), csv)?;
-    fs::write(
-        folder.join("recording.toml"),
-        description(sensors, name, position_unit),
-    )
+    fs::write(folder.join("recording.toml"), description(sensors, name))
 }
 
-fn description(sensors: &Sensors, name: &str, position_unit: &str) -> String {
+fn description(sensors: &Sensors, name: &str) -> String {
     let mut text = format!(
         "name = {name:?}\ndevice = \"simulated bench\"\n\n[tool]\nname = \"stylus\"\nmass_kg = 0.05\n"
     );
@@ -397,7 +383,7 @@ fn description(sensors: &Sensors, name: &str, position_unit: &str) -> String {
         "position.csv",
         "clock = \"time_s\"",
         "position",
-        position_unit,
+        "mm",
         &columns[..if sensors.has_height { 3 } else { 2 }],
         "",
     );

@@ -1,5 +1,4 @@
-//! Cost of a design: executed instructions of mixing, conversion and synthesis, bytes of an asset, and time relative to
-//! the default.
+//! Cost of a design: executed instructions of mixing, conversion and synthesis, and bytes of an asset.
 //!
 //! Callgrind counts the instructions. It runs this program with a single kernel for n and for 2n ticks of a
 //! [`Workload`]; the difference divided by n is the cost per tick, without start-up.
@@ -9,23 +8,14 @@ use asperity::{
     model::{ModelGrid, Numerator, TextureModel},
 };
 use asperity_kernels::{
-    Rendering,
     design::{Design, variants},
     workload::{Orders, TICKS, Workload, kernel_of},
 };
-use std::{
-    collections::HashMap,
-    env,
-    process::Command,
-    sync::Mutex,
-    time::{Duration, Instant},
-};
+use std::{collections::HashMap, env, process::Command, sync::Mutex};
 use thiserror::Error;
 
 /// Name of the hidden command that runs one kernel.
 pub const COMMAND: &str = "pareto-kernel";
-/// Ticks of a timed run, and the number of runs.
-const TIMED: (usize, usize) = (20_000, 7);
 
 /// The orders of a grid.
 #[must_use]
@@ -132,28 +122,6 @@ pub fn run(arguments: &[usize]) -> Option<f64> {
     };
     let mut kernel = kernel_of(&variants().get(variant)?.design, orders)?;
     Some(Workload::default().run(kernel.as_mut(), ticks))
-}
-
-/// Time of a design divided by that of the default on this machine.
-///
-/// Both run several times in turn, and the shortest times count. The ratio is informative only:
-/// it depends on the machine and on its load.
-#[must_use]
-pub fn time_ratio(design: &Design, orders: Orders) -> Option<f64> {
-    let workload = Workload::default();
-    let mut other = kernel_of(design, orders)?;
-    let mut default = kernel_of(&Design::DEFAULT, orders)?;
-    let timed = |kernel: &mut dyn Rendering| {
-        let start = Instant::now();
-        workload.run(kernel, TIMED.0);
-        start.elapsed()
-    };
-    let (mut best, mut best_default) = (Duration::MAX, Duration::MAX);
-    for _ in 0..TIMED.1 {
-        best = best.min(timed(other.as_mut()));
-        best_default = best_default.min(timed(default.as_mut()));
-    }
-    Some(best.as_secs_f64() / best_default.as_secs_f64())
 }
 
 /// Bytes that a runtime needs of a texture with this grid and LSFs of `lsf_bits` bits.

@@ -29,34 +29,12 @@ impl Band {
     }
 }
 
-/// Difference of two power spectra.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Difference {
-    /// RMS of the difference of their logarithms, level included, dB.
-    pub distortion_db: f64,
-    /// RMS of that difference without its mean, which leaves the shape alone, dB.
-    pub shape_db: f64,
-    /// Total power of the second relative to the first, dB.
-    pub level_db: f64,
-}
-
-impl Difference {
-    /// The difference between two lists of powers at the same frequencies.
-    #[must_use]
-    pub fn of(truth: &[f64], found: &[f64]) -> Self {
-        let count = truth.len() as f64;
-        let (mut sum, mut squares) = (0.0, 0.0);
-        for (truth, found) in truth.iter().zip(found) {
-            let db = 10.0 * libm::log10(found / truth);
-            sum += db;
-            squares += db * db;
-        }
-        let mean = sum / count;
-        let total = |powers: &[f64]| powers.iter().sum::<f64>();
-        Self {
-            distortion_db: (squares / count).sqrt(),
-            shape_db: (squares / count - mean * mean).max(0.0).sqrt(),
-            level_db: 10.0 * libm::log10(total(found) / total(truth)),
-        }
-    }
+/// RMS of the difference of the logarithms of two lists of powers at the same frequencies, dB.
+#[must_use]
+pub fn distortion_db(truth: &[f64], found: &[f64]) -> f64 {
+    let squares = truth.iter().zip(found).map(|(truth, found)| {
+        let db = 10.0 * libm::log10(found / truth);
+        db * db
+    });
+    (squares.sum::<f64>() / truth.len() as f64).sqrt()
 }

@@ -1,11 +1,10 @@
 //! The comparison as JSON.
 
 use super::measure::Results;
-use super::statistics::{Spread, percentile};
+use super::statistics::Spread;
 use super::summary::VariantSummary;
 
-/// The comparison as JSON: the figures of `summary.csv` and of what `auto` keeps that a
-/// program is likely to read.
+/// The comparison as JSON: the figures of `tables.md` that a program is likely to read.
 #[must_use]
 pub fn encode(results: &Results) -> serde_json::Value {
     let spread = |s: Option<Spread>| {
@@ -27,10 +26,6 @@ pub fn encode(results: &Results) -> serde_json::Value {
             })
         })
         .collect();
-    let exponent = |of: fn(&(f64, f64)) -> f64| {
-        let values: Vec<f64> = results.exponents.iter().map(of).collect();
-        [0.25, 0.5, 0.75].map(|fraction| percentile(&values, fraction))
-    };
     let halved = results
         .kept
         .iter()
@@ -43,10 +38,6 @@ pub fn encode(results: &Results) -> serde_json::Value {
             "nyquist_zero": results.common.nyquist,
         },
         "designs": designs,
-        "level_exponents_quartiles": {
-            "speed": exponent(|e| e.0),
-            "force": exponent(|e| e.1),
-        },
         "auto": {
             "halved": halved.count(),
             "within_budget": results.kept.iter().filter(|k| k.is_within_budget()).count(),

@@ -1,7 +1,6 @@
 //! The comparison as tables of the documentation.
 
 use super::cortex_m::CortexM;
-use super::held_out::{MethodSummary, Region};
 use super::kept::Kept;
 use super::measure::Results;
 use super::statistics::{Spread, percentile};
@@ -10,9 +9,9 @@ use asperity::passes::reduce::Change;
 use asperity_kernels::design::Factor;
 use std::fmt::Write as _;
 
-/// Markdown of every table: designs by factor, predictions by region, what `auto` keeps.
+/// Markdown of every table: designs by factor, what `auto` keeps.
 #[must_use]
-pub fn tables(results: &Results, held_out: &[MethodSummary], cortex_m: &CortexM) -> String {
+pub fn tables(results: &Results, cortex_m: &CortexM) -> String {
     let mut text = String::new();
     for group in results
         .summaries
@@ -31,9 +30,6 @@ pub fn tables(results: &Results, held_out: &[MethodSummary], cortex_m: &CortexM)
                 cortex_m,
             );
         }
-    }
-    for region in [Region::Inside, Region::TowardsRest, Region::Beyond] {
-        predictions(&mut text, region, held_out);
     }
     kept(&mut text, results);
     text
@@ -96,32 +92,6 @@ fn designs<'a>(
     text.push('\n');
 }
 
-fn predictions(text: &mut String, region: Region, held_out: &[MethodSummary]) {
-    let rows: Vec<&MethodSummary> = held_out.iter().filter(|row| row.region == region).collect();
-    let models = rows.iter().map(|row| row.models).max().unwrap_or(0);
-    let _ = write!(
-        text,
-        "### {}\n\n{models} models:\n\n| method | varied | shape, dB: median / p95 | level, dB: median / p95 | level, signed median | nearer than the default |\n|---|---|---:|---:|---:|---:|\n",
-        region.name()
-    );
-    for row in rows {
-        let (varied, method) = row.method.names();
-        let pair = |spread: Option<Spread>| {
-            let [median, p95] = [spread.map(|s| s.median), spread.map(|s| s.p95)];
-            format!("{} / {}", number(median, 2), number(p95, 2))
-        };
-        let _ = writeln!(
-            text,
-            "| {method} | {varied} | {} | {} | {} | {} % |",
-            pair(row.shape_db),
-            pair(row.level_db),
-            number(row.bias_db, 2),
-            number(row.nearer.map(|fraction| 100.0 * fraction), 0)
-        );
-    }
-    text.push('\n');
-}
-
 fn kept(text: &mut String, results: &Results) {
     let kept = &results.kept;
     let median = |values: Vec<f64>| number(percentile(&values, 0.5).map(|x| 100.0 * x), 0);
@@ -169,17 +139,5 @@ fn kept(text: &mut String, results: &Results) {
         names(&|k| k.ratio().is_some_and(|ratio| ratio > 0.5)),
         names(&|k| k.report.order.full == k.report.order.kept
             && k.report.zeros.full == k.report.zeros.kept)
-    );
-    let quartiles = |of: fn(&(f64, f64)) -> f64| -> String {
-        let values: Vec<f64> = results.exponents.iter().map(of).collect();
-        [0.25, 0.5, 0.75]
-            .map(|fraction| number(percentile(&values, fraction), 2))
-            .join(", ")
-    };
-    let _ = write!(
-        text,
-        "\n### fitted exponents\n\nThe quartiles are {} for speed and {} for force.\n",
-        quartiles(|e| e.0),
-        quartiles(|e| e.1)
     );
 }

@@ -3,7 +3,6 @@
 use super::{
     accuracy::{Errors, Truth},
     cost::{self, CountError, Counter},
-    held_out::{self, Prediction},
     kept::Kept,
     summary::{Measurement, VariantSummary, summarised},
 };
@@ -27,22 +26,14 @@ pub struct Options {
     pub seconds: f64,
     /// True to count instructions.
     pub instructions: bool,
-    /// True to time the kernels against the default.
-    pub time: bool,
 }
 
 /// Everything that was measured.
 pub struct Results {
     /// Names of the materials.
     pub materials: Vec<String>,
-    /// Every variant on every material.
-    pub rows: Vec<Measurement>,
     /// Every variant over all materials, in the order of [`variants`].
     pub summaries: Vec<VariantSummary>,
-    /// Predictions of held-out models, one list for each material.
-    pub held_out: Vec<Vec<Prediction>>,
-    /// Exponents of speed and force, one pair for each material.
-    pub exponents: Vec<(f64, f64)>,
     /// Each material as `auto` reduces it.
     pub kept: Vec<Kept>,
     /// The orders that instructions were counted at.
@@ -75,7 +66,6 @@ pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + S
     let common = commonest(textures);
     let counter = Counter::default();
     let wanted = options.instructions.then_some(&counter);
-    let rows: Vec<Measurement> = measured.iter().flat_map(|m| m.rows.clone()).collect();
     let mut failed = None;
     let mut count = |design: &Design, orders: Orders| {
         let counted = wanted?.instructions(design, orders);
@@ -88,18 +78,10 @@ pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + S
         .iter()
         .enumerate()
         .map(|(index, variant)| {
-            let mine: Vec<&Measurement> = rows.iter().filter(|row| row.variant == index).collect();
+            let mine: Vec<&Measurement> = measured.iter().map(|m| &m.rows[index]).collect();
             let instructions = instructions(variant, &mine, common, &mut count);
-            let mut summary = summarised(variant.clone(), &mine);
-            summary.instructions = instructions;
-            if options.time {
-                let orders = mine
-                    .first()
-                    .map_or(common, |row| costed(variant, row, common));
-                summary.time_ratio = cost::time_ratio(&variant.design, orders);
-            }
             done();
-            summary
+            summarised(variant.clone(), &mine, instructions)
         })
         .collect();
     let kept = measured
@@ -113,11 +95,8 @@ pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + S
         .collect();
     Results {
         materials: textures.iter().map(|t| t.name.clone()).collect(),
-        rows,
         summaries,
-        exponents: measured.iter().map(|m| m.exponents).collect(),
         kept,
-        held_out: measured.into_iter().map(|m| m.held_out).collect(),
         common,
         not_counted: failed,
     }
@@ -125,9 +104,8 @@ pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + S
 
 /// Measurements on a material.
 struct Measured {
+    /// A row for each variant.
     rows: Vec<Measurement>,
-    held_out: Vec<Prediction>,
-    exponents: (f64, f64),
     kept: Kept,
 }
 
@@ -138,8 +116,7 @@ impl Measured {
         let grids = Grids::of(&texture.grid);
         let rows = variants
             .iter()
-            .enumerate()
-            .map(|(variant, Variant { design, .. })| {
+            .map(|Variant { design, .. }| {
                 let grid = grids.at(design.order);
                 let errors = match (&truth, &grid) {
                     (Some(truth), Some(grid)) => truth.errors(design, grid),
@@ -147,8 +124,6 @@ impl Measured {
                 };
                 let grid = grid.unwrap_or_else(|| texture.grid.clone());
                 Measurement {
-                    material: index,
-                    variant,
                     orders: cost::orders(&grid),
                     bytes: cost::bytes(texture, &grid, design.lsf_bits),
                     errors,
@@ -159,8 +134,6 @@ impl Measured {
         let bytes = |texture: &TextureModel| cost::bytes(texture, &texture.grid, 16);
         Self {
             rows,
-            held_out: held_out::predictions(&texture.grid),
-            exponents: held_out::exponents(&texture.grid),
             kept: Kept {
                 report: reduction.report,
                 orders: (
@@ -264,7 +237,6 @@ mod tests {
             seed: 5,
             seconds: 0.2,
             instructions: false,
-            time: false,
         };
         let run = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
@@ -272,9 +244,7 @@ mod tests {
                 .install(|| measure(&textures, &options, || ()))
         };
         let (one, two) = (run(1), run(2));
-        for (x, y) in one.rows.iter().zip(&two.rows) {
-            assert_eq!(x.errors, y.errors);
-        }
-        assert_eq!(one.rows.len(), 2 * variants().len());
+        assert_eq!(one.summaries, two.summaries);
+        assert_eq!(one.summaries.len(), variants().len());
     }
 }

@@ -8,12 +8,11 @@
 //! | [`kernel`] | the kernels on the compiler's models |
 //! | [`material`] | the textures that are measured |
 //! | [`accuracy`], [`difference`] | how far a design is from the f64 oracle, at rest and moving |
-//! | [`held_out`] | how well an interpolation predicts a measured model it has not seen |
-//! | [`cost`], [`cortex_m`] | executed instructions, bytes, time |
+//! | [`cost`], [`cortex_m`] | executed instructions, bytes |
 //! | [`kept`] | what `--fidelity auto` keeps of a material |
 //! | [`mod@measure`], [`summary`], [`front`] | every design on every material, and which designs no other beats |
 //! | [`noise`], [`statistics`] | seeded noise; percentiles and levels |
-//! | [`table`], [`json`], [`markdown`] | results as CSV, as JSON, as tables of the documentation |
+//! | [`json`], [`markdown`] | results as JSON, as tables of the documentation |
 //! | [`chart`] | the pictures |
 
 pub mod accuracy;
@@ -22,7 +21,6 @@ pub mod cortex_m;
 pub mod cost;
 pub mod difference;
 pub mod front;
-pub mod held_out;
 pub mod json;
 pub mod kept;
 pub mod kernel;
@@ -32,4 +30,3 @@ pub mod measure;
 pub mod noise;
 pub mod statistics;
 pub mod summary;
-pub mod table;

@@ -1,4 +1,4 @@
-//! Results of a variant, per material and over all of them.
+//! Results of a variant, on one material and over all of them.
 
 use super::accuracy::Errors;
 use super::statistics::{Spread, percentile};
@@ -6,40 +6,29 @@ use asperity::passes::reduce::BUDGET_DB;
 use asperity_kernels::{design::Variant, workload::Orders};
 
 /// A variant on a single material.
-#[derive(Debug, Clone)]
-pub struct Measurement {
-    /// Index of the material.
-    pub material: usize,
-    /// Index of the variant.
-    pub variant: usize,
+pub(super) struct Measurement {
     /// Orders of its filter.
-    pub orders: Orders,
+    pub(super) orders: Orders,
     /// Bytes of the asset.
-    pub bytes: Option<usize>,
+    pub(super) bytes: Option<usize>,
     /// Its errors.
-    pub errors: Errors,
+    pub(super) errors: Errors,
 }
 
 /// A variant over all materials.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct VariantSummary {
     /// The variant.
     pub variant: Variant,
     /// Executed instructions a tick of mixing, conversion and synthesis. They are counted at the
     /// commonest orders; for `auto` they are the mean over the materials.
     pub instructions: Option<f64>,
-    /// Time divided by that of the default.
-    pub time_ratio: Option<f64>,
     /// Median of the bytes of an asset.
     pub bytes: Option<usize>,
     /// RMS log-spectral distortion at rest, dB.
     pub distortion_db: Option<Spread>,
-    /// Absolute level error at rest, dB.
-    pub level_db: Option<Spread>,
     /// Absolute level error of blocks while moving, dB.
     pub moving_level_db: Option<Spread>,
-    /// RMS of the difference of samples while moving, relative to the oracle, dB.
-    pub moving_error_db: Option<Spread>,
     /// RMS under alternation relative to the louder model, dB.
     pub alternation_db: Option<Spread>,
     /// Fraction of places whose filter is unstable.
@@ -57,23 +46,19 @@ impl VariantSummary {
     }
 }
 
-/// Summarises a variant's rows, without instructions and time, which are measured elsewhere.
-pub(super) fn summarised(variant: Variant, rows: &[&Measurement]) -> VariantSummary {
-    let all = |list: fn(&Errors) -> &Vec<f64>| -> Option<Spread> {
-        let values: Vec<f64> = rows
-            .iter()
-            .flat_map(|row| list(&row.errors).iter().map(|v| v.abs()))
-            .collect();
-        Spread::of(&values)
-    };
-    let signed = |list: fn(&Errors) -> &Vec<f64>| -> Option<Spread> {
+/// Summarises a variant's rows.
+pub(super) fn summarised(
+    variant: Variant,
+    rows: &[&Measurement],
+    instructions: Option<f64>,
+) -> VariantSummary {
+    let spread = |list: fn(&Errors) -> &Vec<f64>| -> Option<Spread> {
         let values: Vec<f64> = rows
             .iter()
             .flat_map(|row| list(&row.errors).iter().copied())
             .collect();
         Spread::of(&values)
     };
-    let moving: Vec<f64> = rows.iter().map(|row| row.errors.moving_error_db).collect();
     let places: usize = rows.iter().map(|row| row.errors.places).sum();
     let unstable: usize = rows.iter().map(|row| row.errors.unstable).sum();
     let bytes: Vec<f64> = rows
@@ -82,14 +67,11 @@ pub(super) fn summarised(variant: Variant, rows: &[&Measurement]) -> VariantSumm
         .collect();
     VariantSummary {
         variant,
-        instructions: None,
-        time_ratio: None,
+        instructions,
         bytes: percentile(&bytes, 0.5).map(|b| b as usize),
-        distortion_db: all(|e| &e.distortion_db),
-        level_db: all(|e| &e.level_db),
-        moving_level_db: all(|e| &e.moving_level_db),
-        moving_error_db: Spread::of(&moving),
-        alternation_db: signed(|e| &e.alternation_db),
+        distortion_db: spread(|e| &e.distortion_db),
+        moving_level_db: spread(|e| &e.moving_level_db),
+        alternation_db: spread(|e| &e.alternation_db),
         unstable: unstable as f64 / places.max(1) as f64,
         unstable_materials: rows.iter().filter(|row| row.errors.unstable > 0).count(),
     }

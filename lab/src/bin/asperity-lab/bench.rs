@@ -5,11 +5,12 @@ use std::{fmt::Write as _, path::PathBuf};
 use asperity::{model::TextureModel, sources::hatt};
 use asperity_console::Console;
 use asperity_experiments::import_accuracy::{
-    self, Checks, Figures, MOST_FREE_TAPS, Resonance, Row, Sensors, Strokes, Until,
+    self, Figures, MOST_FREE_TAPS, Resonance, Row, Sensors, Strokes, Until,
 };
 use asperity_io::diagnostic::{Failures, one};
 
 use crate::error::Plain;
+use crate::loop_options::within;
 
 /// Materials of the learned model that are decoded where no HaTT is given.
 const REFERENCE: usize = 24;
@@ -24,7 +25,6 @@ const REFERENCE: usize = 24;
 #[command(after_help = "Examples:
   asperity-lab bench
   asperity-lab bench --hatt materials/ --seconds 5,15,60,300
-  asperity-lab bench --checks 100
   asperity-lab bench -o oak --seconds 30        a recording to try an import on
 
 Without --hatt, the textures are the built-in one and materials of the learned model.")]
@@ -34,10 +34,10 @@ pub(crate) struct Arguments {
     hatt: Option<PathBuf>,
     /// Seconds of strokes, one or more values; time in the air and taps are added. With --output, the
     /// length of the whole recording
-    #[arg(long, value_name = "S,…", value_delimiter = ',', default_value = "60", value_parser = seconds)]
+    #[arg(long, value_name = "S,…", value_delimiter = ',', default_value = "60", value_parser = within(3.0..=1200.0, " s"))]
     seconds: Vec<f64>,
     /// Stroke freely: speed and force change all the time
-    #[arg(long, conflicts_with = "checks")]
+    #[arg(long)]
     free: bool,
     /// Use at most this many textures
     #[arg(long, value_name = "N")]
@@ -49,20 +49,17 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0)]
     noise: f64,
     /// Resonance of the tool with its accelerometer: frequency in Hz, and Q
-    #[arg(long, value_name = "HZ,Q", conflicts_with = "checks")]
+    #[arg(long, value_name = "HZ,Q")]
     resonance: Option<Resonance>,
     /// Number of taps of the tool in free air, at the start
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u8).range(..=MOST_FREE_TAPS as i64), conflicts_with = "checks")]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u8).range(..=MOST_FREE_TAPS as i64))]
     free_taps: u8,
     /// Do not record the position along z
-    #[arg(long, conflicts_with = "checks")]
+    #[arg(long)]
     no_height: bool,
     /// Write every visited cell of every texture to this CSV file
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["write", "checks"])]
+    #[arg(long, value_name = "FILE", conflicts_with = "write")]
     cells: Option<PathBuf>,
-    /// Instead, run the check on this many faulty and as many clean recordings of 20 s
-    #[arg(long, value_name = "N", conflicts_with = "write")]
-    checks: Option<usize>,
     /// Instead, write one recording of the first texture to this new folder, whose parent must exist
     #[arg(short = 'o', long = "output", alias = "write", value_name = "DIR")]
     write: Option<PathBuf>,
@@ -92,13 +89,6 @@ impl Arguments {
     }
 }
 
-fn seconds(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(value) if (3.0..=1200.0).contains(&value) => Ok(value),
-        _ => Err("must be 3 to 1200 s".into()),
-    }
-}
-
 pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failures> {
     let mut textures = textures(arguments)?;
     textures = textures
@@ -108,13 +98,6 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     textures.truncate(arguments.textures.unwrap_or(usize::MAX).max(1));
     if let Some(folder) = &arguments.write {
         return write(arguments, &textures[0], folder, console);
-    }
-    if let Some(count) = arguments.checks {
-        let bar = console.bar(count, "checking");
-        let checks = import_accuracy::checks(&textures, count, 20.0, arguments.seed, || bar.inc(1))
-            .map_err(one)?;
-        bar.finish_and_clear();
-        return print(&checks, checks_text(&checks), arguments.json, console);
     }
     let mut all: Vec<(Figures, Vec<Row>)> = Vec::new();
     for &seconds in &arguments.seconds {
@@ -141,25 +124,14 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         }),
         None => Ok(()),
     };
-    let text = figures_text(&all);
     // Figures of single materials of others stay with their owner.
     let figures: Vec<&Figures> = all.iter().map(|(figures, _)| figures).collect();
-    crate::error::all([written, print(&figures, text, arguments.json, console)])
-}
-
-fn print(
-    value: &impl serde::Serialize,
-    text: String,
-    json: bool,
-    console: Console,
-) -> Result<(), Failures> {
-    if json {
-        let json = serde_json::to_value(value)
-            .map_err(|error| Plain::failure(error, "report this error"))?;
-        console.json(&json).map_err(one)
+    let printed = if arguments.json {
+        console.json(&serde_json::json!(figures))
     } else {
-        console.text(&text).map_err(one)
-    }
+        console.text(&figures_text(&all))
+    };
+    crate::error::all([written, printed.map_err(one)])
 }
 
 fn figures_text(all: &[(Figures, Vec<Row>)]) -> String {
@@ -224,26 +196,6 @@ fn cells_csv(all: &[(Figures, Vec<Row>)]) -> String {
         }
     }
     csv
-}
-
-fn checks_text(checks: &Checks) -> String {
-    let mut text = format!(
-        "{} of {} faults found and named\n{} false alarms in {} clean recordings\n",
-        checks.named,
-        checks.faulty,
-        checks.false_alarms.len(),
-        checks.clean
-    );
-    for line in checks.missed.iter().map(|m| format!("missed: {m}")).chain(
-        checks
-            .false_alarms
-            .iter()
-            .map(|a| format!("false alarm: {a}")),
-    ) {
-        text += &line;
-        text.push('\n');
-    }
-    text
 }
 
 fn write(

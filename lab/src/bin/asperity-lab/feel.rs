@@ -12,6 +12,7 @@ use asperity_sim::device::DeviceConfig;
 use asperity_sim::hand::{Grip, GripPreset};
 
 use crate::error::Plain;
+use crate::loop_options::within;
 
 /// Explore a texture with a simulated hand on a simulated device
 ///
@@ -44,7 +45,7 @@ pub(crate) struct Arguments {
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Virtual time to run, s (0.1 to 600) [default: one whole exploration, about 12 s]
-    #[arg(long, value_name = "S", value_parser = seconds)]
+    #[arg(long, value_name = "S", value_parser = within(0.1..=600.0, " s"))]
     seconds: Option<f64>,
     /// Write every tick to a CSV file; `-` is standard output
     #[arg(long, value_name = "OUT.csv")]
@@ -58,14 +59,6 @@ pub(crate) struct Arguments {
     /// Print the summary as JSON
     #[arg(long)]
     json: bool,
-}
-
-fn seconds(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(value) if (0.1..=600.0).contains(&value) => Ok(value),
-        Ok(_) => Err("must be 0.1 to 600 s".into()),
-        Err(_) => Err("must be a number of seconds".into()),
-    }
 }
 
 pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failures> {

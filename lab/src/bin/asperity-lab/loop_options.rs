@@ -1,6 +1,9 @@
 //! Options of the commands that run a servo loop.
 
+use std::fmt::Display;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
+use std::str::FromStr;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::time::Duration;
@@ -197,15 +200,16 @@ pub(crate) fn stop_on_interrupt() -> Result<Interrupt, Failures> {
     Ok(interrupt)
 }
 
-/// A name of a device.
-pub(crate) fn device(text: &str) -> Result<Uri, String> {
-    text.parse::<Uri>().map_err(|error| error.to_string())
-}
-
-pub(crate) fn seconds(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(value) if (0.1..=86_400.0).contains(&value) => Ok(value),
-        Ok(_) => Err("must be 0.1 to 86400 s".into()),
-        Err(_) => Err("must be a number of seconds".into()),
+/// Parses a number within a range, in a unit that begins with a space.
+pub(crate) fn within<T>(
+    range: RangeInclusive<T>,
+    unit: &'static str,
+) -> impl Fn(&str) -> Result<T, String> + Clone
+where
+    T: Clone + Display + FromStr + PartialOrd,
+{
+    move |text| {
+        let value = text.parse().ok().filter(|value| range.contains(value));
+        value.ok_or_else(|| format!("must be {} to {}{unit}", range.start(), range.end()))
     }
 }

@@ -5,9 +5,8 @@ use std::path::{Path, PathBuf};
 use asperity::sources::hatt;
 use asperity_console::Console;
 use asperity_experiments::pareto::cortex_m::{self, CortexM};
-use asperity_experiments::pareto::held_out::summaries;
 use asperity_experiments::pareto::measure::{Options, Results, measure, steps};
-use asperity_experiments::pareto::{chart, json, markdown, material, table};
+use asperity_experiments::pareto::{chart, json, markdown, material};
 use asperity_io::diagnostic::{Failures, one};
 use asperity_io::input::{self, InputError, Kind};
 use asperity_io::output;
@@ -17,18 +16,17 @@ use crate::error::{Plain, all};
 /// Measure the trade-off between speed and accuracy over many materials
 ///
 /// Every design factor of the tick is varied from its default, alone and in some combinations.
-/// Errors are relative to the f64 oracle, at rest and in motion; measured models are also
-/// predicted from their neighbours. The same seed gives the same tables.
+/// Errors are relative to the f64 oracle, at rest and in motion. The same seed gives the same
+/// tables.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   asperity-lab pareto -o charts                      the reference corpus
   asperity-lab pareto --hatt hatt/models -o charts   your own copy of the HaTT
   asperity-lab pareto --quick --json                    a few materials, no counting
 
-Writes summary.csv, designs.csv, held-out.csv, fidelity.csv, their tables.md, and charts as
-.svg and .png. If valgrind is installed, it counts the instructions per tick, at the most
-common orders of the materials. --cortex-m adds the counts of a firmware bench
-(factor,name,instructions).")]
+Writes tables.md, and charts as .png. If valgrind is installed, it counts the instructions per
+tick, at the most common orders of the materials. --cortex-m adds the counts of a firmware
+bench (factor,name,instructions).")]
 pub(crate) struct Arguments {
     /// Folder of HaTT models [default: the reference corpus]
     #[arg(long, value_name = "DIR")]
@@ -39,9 +37,6 @@ pub(crate) struct Arguments {
     /// Quick run of less than a minute: six materials, half a second of motion, no counting
     #[arg(long)]
     quick: bool,
-    /// Also time every kernel against the default; the result depends on the machine
-    #[arg(long)]
-    time: bool,
     /// Instructions per tick on a Cortex-M4F, CSV: factor,name,instructions
     #[arg(long, value_name = "FILE.csv")]
     cortex_m: Option<PathBuf>,
@@ -74,7 +69,6 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         seed: arguments.seed,
         seconds: if arguments.quick { 0.5 } else { 4.0 },
         instructions: !arguments.quick,
-        time: arguments.time,
     };
     let bar = console.bar(steps(textures.len()), "measuring");
     let results = measure(&textures, &options, || bar.inc(1));
@@ -128,35 +122,14 @@ fn write(
     results: &Results,
     cortex_m: &CortexM,
 ) -> Result<(), Failures> {
-    let held_out = summaries(&results.held_out);
-    let encode = |result: Result<Vec<u8>, csv::Error>| {
-        result.map_err(|error| Plain::failure(error, "report this"))
-    };
-    let mut files = vec![
-        (
-            "summary.csv".to_owned(),
-            encode(table::summary(results, cortex_m))?,
-        ),
-        ("designs.csv".to_owned(), encode(table::designs(results))?),
-        (
-            "held-out.csv".to_owned(),
-            encode(table::held_out(&held_out))?,
-        ),
-        ("fidelity.csv".to_owned(), encode(table::fidelity(results))?),
-        (
-            "tables.md".to_owned(),
-            markdown::tables(results, &held_out, cortex_m).into_bytes(),
-        ),
-    ];
-    for (name, picture) in
-        chart::all(results, &held_out).map_err(|e| Plain::failure(e, "report this"))?
-    {
-        files.push((format!("{name}.svg"), picture.svg.into_bytes()));
-        files.push((format!("{name}.png"), picture.png));
-    }
+    let mut files = vec![(
+        "tables.md",
+        markdown::tables(results, cortex_m).into_bytes(),
+    )];
+    files.extend(chart::all(results).map_err(|e| Plain::failure(e, "report this"))?);
     let named: Vec<(String, &[u8])> = files
         .iter()
-        .map(|(name, bytes)| (name.clone(), bytes.as_slice()))
+        .map(|(name, bytes)| ((*name).to_owned(), bytes.as_slice()))
         .collect();
     output::write_folder_beside(inputs, folder, &named).map_err(one)
 }

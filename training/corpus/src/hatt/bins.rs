@@ -5,6 +5,9 @@ use crate::{BINS, Bin, UnifiedGrid};
 
 /// Margin of the grid beyond the largest sample, relative to it.
 const BEYOND: f64 = 0.02;
+/// Starts of the clustering, of which the best one counts, and their seed.
+const RESTARTS: usize = 32;
+const SEED: u64 = 1;
 
 /// The unified grid, and the scales on which distances to its bins are measured.
 #[derive(Debug, Clone)]
@@ -19,7 +22,7 @@ pub(super) struct Bins {
 impl Bins {
     /// Clusters samples at [`BINS`] or more distinct places: both coordinates are standardised to
     /// zero mean and unit deviation, then k-means runs.
-    pub(super) fn of(samples: &[Bin], restarts: usize, seed: u64) -> Self {
+    pub(super) fn of(samples: &[Bin]) -> Self {
         let count = samples.len() as f64;
         let axis = |of: fn(&Bin) -> f64| {
             let mean = samples.iter().map(of).sum::<f64>() / count;
@@ -38,7 +41,7 @@ impl Bins {
             .iter()
             .map(|s| standardised(s.speed_mm_s, s.force_n, mean, deviation))
             .collect();
-        let mut centroids = kmeans::centroids(&points, BINS, restarts, seed);
+        let mut centroids = kmeans::centroids(&points, BINS, RESTARTS, SEED);
         centroids.sort_by(|a, b| a[1].total_cmp(&b[1]).then(a[0].total_cmp(&b[0])));
         let bins = centroids
             .iter()

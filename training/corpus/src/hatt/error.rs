@@ -51,12 +51,6 @@ pub enum HattCorpusError {
         /// Places found.
         found: usize,
     },
-    /// A weight of another material's taps that is outside 0–1.
-    #[error("tap_mixing = {found}, must be 0 to 1")]
-    TapMixing {
-        /// The value.
-        found: f64,
-    },
 }
 
 fn listed(unknown: &[(PathBuf, String)]) -> String {
@@ -82,7 +76,6 @@ impl Diagnostic for HattCorpusError {
                 "fetch the file again from HaTT, or take it out of the folder".into()
             }
             Self::TooFewSamples { .. } => "give a folder of more materials".into(),
-            Self::TapMixing { .. } => "the paper mixes 0.05".into(),
         }
     }
 }

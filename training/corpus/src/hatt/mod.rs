@@ -55,28 +55,6 @@ pub struct HattOptions {
     pub first_instance: usize,
     /// Seed of the augmentation; the grid does not depend on it.
     pub seed: u64,
-    /// Weight of another material's taps, 0–1 (paper: 0.05).
-    pub tap_mixing: f64,
-    /// Seed of the clustering.
-    pub cluster_seed: u64,
-    /// Number of starts of the clustering; the best one counts.
-    pub cluster_restarts: usize,
-}
-
-impl HattOptions {
-    /// The paper's augmentation of a folder.
-    #[must_use]
-    pub fn new(folder: impl Into<PathBuf>) -> Self {
-        Self {
-            folder: folder.into(),
-            instances: 20,
-            first_instance: 0,
-            seed: 1,
-            tap_mixing: 0.05,
-            cluster_seed: 1,
-            cluster_restarts: 32,
-        }
-    }
 }
 
 /// Loads, converts, clusters and augments a folder. The same files and options give
@@ -86,10 +64,6 @@ impl HattOptions {
 /// [`CorpusError::Hatt`] for a folder or file that is refused, a material without
 /// captions, or too few samples; it names the file.
 pub fn load(options: &HattOptions) -> Result<Corpus, CorpusError> {
-    let share = options.tap_mixing;
-    if !(0.0..=1.0).contains(&share) {
-        return Err(HattCorpusError::TapMixing { found: share }.into());
-    }
     let sources = source::read(&options.folder)?;
     let described = described(sources)?;
     let bins = clustered(options, &described)?;
@@ -126,7 +100,7 @@ pub fn load(options: &HattOptions) -> Result<Corpus, CorpusError> {
                         level_db,
                         taps_m_s2,
                     };
-                    augment::mix_taps(&mut instance, &prototypes, index, share, &mut draws);
+                    augment::mix_taps(&mut instance, &prototypes, index, &mut draws);
                     instance
                 })
                 .collect(),
@@ -205,11 +179,7 @@ fn clustered(options: &HattOptions, described: &[Described]) -> Result<Bins, Hat
             found: places.len(),
         });
     }
-    Ok(Bins::of(
-        &samples,
-        options.cluster_restarts,
-        options.cluster_seed,
-    ))
+    Ok(Bins::of(&samples))
 }
 
 /// Checksum over file names, files and captions.

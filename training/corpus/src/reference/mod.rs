@@ -7,8 +7,7 @@ pub mod names;
 pub mod schema;
 
 use crate::{
-    Corpus, Material, UnifiedGrid,
-    augment::{self, Augmentation},
+    Corpus, Material, UnifiedGrid, augment,
     error::CorpusError,
     generator::{
         self, Physical,
@@ -91,13 +90,12 @@ const EMBEDDED_LEXICON: &[(&str, &str)] = embedded![
     "lexicon/vehicles.csv",
     "lexicon/words.csv",
 ];
-/// In the same folder but no part of the corpus: prompts of the evaluation, constants of the generator.
-const BESIDE: [&str; 3] = ["pairs.toml", "probes.toml", "generator.toml"];
+/// In the same folders but no part of the corpus: prompts of the evaluation, constants of the generator, ratings of the
+/// same phrases again, to compare.
+const BESIDE: [&str; 4] = ["pairs.toml", "probes.toml", "generator.toml", "anchors.csv"];
 /// The lexicon beside the family files of a folder, and the folder of its further files.
 const LEXICON_FILE: &str = "everyday.toml";
 const LEXICON_FOLDER: &str = "lexicon";
-/// Ratings of the same phrases again, to compare; no part of the lexicon.
-const ANCHORS_FILE: &str = "anchors.csv";
 
 /// Options for loading and augmenting the reference corpus.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,8 +104,6 @@ pub struct ReferenceOptions {
     pub folder: Option<PathBuf>,
     /// Augmented instances of each material.
     pub instances: usize,
-    /// Variation between instances.
-    pub augmentation: Augmentation,
     /// Seed of the augmentation.
     pub seed: u64,
     /// Constants of the generator.
@@ -119,7 +115,6 @@ impl Default for ReferenceOptions {
         Self {
             folder: None,
             instances: 20,
-            augmentation: Augmentation::default(),
             seed: 1,
             constants: ConstantSet::default(),
         }
@@ -172,7 +167,6 @@ pub fn load(options: &ReferenceOptions) -> Result<(Corpus, Vec<LexiconEntry>), C
                 &prototypes,
                 index,
                 options.instances,
-                &options.augmentation,
                 options.seed,
             );
             Material {
@@ -236,28 +230,11 @@ fn sources(folder: Option<&Path>) -> Result<Vec<(String, String)>, CorpusError> 
             .map(|(name, text)| ((*name).to_owned(), (*text).to_owned()))
             .collect());
     };
-    let unreadable = |path: &Path| {
-        let path = path.to_owned();
-        move |source| CorpusError::Unreadable { path, source }
-    };
-    let mut all = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(unreadable(folder))? {
-        let path = entry.map_err(unreadable(folder))?.path();
-        let is_toml = path
-            .extension()
-            .is_some_and(|extension| extension == "toml");
-        let name = path
-            .file_name()
-            .map(|name| name.to_string_lossy().into_owned());
-        if let (true, Some(name)) = (is_toml, name)
-            && !BESIDE.contains(&name.as_str())
-        {
-            let text = input::read_text(&path, Kind::Corpus)
-                .map_err(|problem| unreadable(&path)(problem.into()))?;
-            all.push((name, text));
-        }
+    let mut all = files(folder, "toml", "")?;
+    let lexicon = folder.join(LEXICON_FOLDER);
+    if lexicon.is_dir() {
+        all.extend(files(&lexicon, "csv", "lexicon/")?);
     }
-    all.extend(lexicon_files(&folder.join(LEXICON_FOLDER))?);
     all.sort();
     if all.iter().all(|(name, _)| is_lexicon(name)) {
         return Err(CorpusError::Empty {
@@ -267,11 +244,8 @@ fn sources(folder: Option<&Path>) -> Result<Vec<(String, String)>, CorpusError> 
     Ok(all)
 }
 
-/// The CSV files of a folder, if there is one.
-fn lexicon_files(folder: &Path) -> Result<Vec<(String, String)>, CorpusError> {
-    if !folder.is_dir() {
-        return Ok(Vec::new());
-    }
+/// The files of a folder that end so and are part of the corpus, with `before` in front of their names.
+fn files(folder: &Path, ending: &str, before: &str) -> Result<Vec<(String, String)>, CorpusError> {
     let unreadable = |path: &Path| {
         let path = path.to_owned();
         move |source| CorpusError::Unreadable { path, source }
@@ -279,14 +253,11 @@ fn lexicon_files(folder: &Path) -> Result<Vec<(String, String)>, CorpusError> {
     let mut all = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(unreadable(folder))? {
         let path = entry.map_err(unreadable(folder))?.path();
-        let is_csv = path.extension().is_some_and(|ending| ending == "csv");
-        let name = path.file_name().map(|name| name.to_string_lossy());
-        if let (true, Some(name)) = (is_csv, name)
-            && name != ANCHORS_FILE
-        {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if path.extension().is_some_and(|own| own == ending) && !BESIDE.contains(&&*name) {
             let text = input::read_text(&path, Kind::Corpus)
                 .map_err(|problem| unreadable(&path)(problem.into()))?;
-            all.push((format!("{LEXICON_FOLDER}/{name}"), text));
+            all.push((format!("{before}{name}"), text));
         }
     }
     Ok(all)

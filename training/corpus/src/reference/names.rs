@@ -199,12 +199,9 @@ pub fn qualities() -> String {
 }
 
 fn words(text: &str) -> Vec<String> {
-    let tokens = normalise(text).into_iter();
-    let words = tokens.filter_map(|token| match token {
-        Token::Word(word) => Some(word),
-        Token::Break(_) => None,
-    });
-    words.collect()
+    let tokens = normalise(text);
+    let words = tokens.iter().filter_map(Token::word);
+    words.map(str::to_owned).collect()
 }
 
 /// Names of things in a file of the lexicon.

@@ -196,19 +196,19 @@ mod tests {
 
     #[test]
     fn the_paper_has_no_second_stage() {
-        assert_eq!(Config::paper().unwrap().text_stage, None);
+        assert_eq!(Config::find("paper").unwrap().text_stage, None);
     }
 
     #[test]
     fn an_unknown_field_and_a_bad_value_are_named() {
-        let text = Config::paper().unwrap().to_toml().unwrap();
+        let text = Config::find("paper").unwrap().to_toml().unwrap();
         let unknown = Config::parse("x.toml", &format!("colour = 1\n{text}")).unwrap_err();
         assert!(unknown.to_string().contains("colour"));
-        let mut config = Config::paper().unwrap();
+        let mut config = Config::find("paper").unwrap();
         config.network.dropout = 1.0;
         let error = config.validate().unwrap_err().to_string();
         assert!(error.contains("network.dropout = 1.0"), "{error}");
-        config = Config::paper().unwrap();
+        config = Config::find("paper").unwrap();
         config.loss.temperature = f64::NAN;
         let error = config.validate().unwrap_err().to_string();
         assert!(error.contains("loss.temperature"), "{error}");

@@ -1,9 +1,9 @@
 //! The corpus that a model was trained on, made again, and what it has not seen of it.
 
 use super::{CorpusSource, EvaluateError, subject::Subject};
-use crate::config::Config;
+use crate::config::{Config, CorpusChoice};
 use asperity_corpus::{
-    Corpus, Instance, hatt,
+    Corpus, CorpusError, Instance, hatt,
     reference::{self, LexiconEntry, ReferenceOptions},
 };
 use std::path::Path;
@@ -18,53 +18,52 @@ pub(super) fn config_of(model: &Path) -> Result<Config, EvaluateError> {
     Ok(Config::parse(&path.display().to_string(), &text)?)
 }
 
-/// The corpus as [`fit`](crate::fit) saw it, with the lexicon.
-pub(super) fn training(
-    source: &CorpusSource,
-    config: &Config,
-) -> Result<(Corpus, Vec<LexiconEntry>), EvaluateError> {
-    load(source, config, config.corpus.instances, config.seed, 0)
-}
-
 /// As many instances of every material again, drawn as the others were, seen by nobody.
-pub(super) fn unseen(source: &CorpusSource, config: &Config) -> Result<Corpus, EvaluateError> {
-    let count = config.corpus.instances;
-    match source {
+pub(super) fn unseen(source: &CorpusSource, config: &Config) -> Result<Corpus, CorpusError> {
+    let (corpus, _) = match source {
         // Another seed draws others of the same kind.
-        CorpusSource::Reference(_) => Ok(load(source, config, count, !config.seed, 0)?.0),
-        CorpusSource::Hatt(_) => Ok(load(source, config, count, config.seed, count)?.0),
-    }
+        CorpusSource::Reference(_) => source.load(config, !config.seed, 0)?,
+        CorpusSource::Hatt(_) => source.load(config, config.seed, config.corpus.instances)?,
+    };
+    Ok(corpus)
 }
 
-fn load(
-    source: &CorpusSource,
-    config: &Config,
-    instances: usize,
-    seed: u64,
-    first_instance: usize,
-) -> Result<(Corpus, Vec<LexiconEntry>), EvaluateError> {
-    let mut options = ReferenceOptions {
-        instances,
-        seed,
-        constants: config.corpus.constants,
-        ..ReferenceOptions::default()
-    };
-    match source {
-        CorpusSource::Reference(folder) => {
-            options.folder.clone_from(folder);
-            Ok(reference::load(&options)?)
-        }
-        CorpusSource::Hatt(folder) => {
-            let corpus = hatt::load(&hatt::HattOptions {
+impl CorpusSource {
+    /// The corpus of a configuration, instances drawn by a seed from a number on, with the lexicon.
+    ///
+    /// # Errors
+    /// [`CorpusError`].
+    pub fn load(
+        &self,
+        config: &Config,
+        seed: u64,
+        first_instance: usize,
+    ) -> Result<(Corpus, Vec<LexiconEntry>), CorpusError> {
+        let CorpusChoice {
+            instances,
+            constants,
+            ..
+        } = config.corpus;
+        let reference = |folder, instances| {
+            reference::load(&ReferenceOptions {
+                folder,
                 instances,
                 seed,
-                first_instance,
-                ..hatt::HattOptions::new(folder)
-            })?;
-            options.instances = 1;
-            // The everyday lexicon belongs to no corpus.
-            let (_, lexicon) = reference::load(&options)?;
-            Ok((corpus, lexicon))
+                constants,
+            })
+        };
+        match self {
+            Self::Reference(folder) => reference(folder.clone(), instances),
+            Self::Hatt(folder) => {
+                let corpus = hatt::load(&hatt::HattOptions {
+                    folder: folder.clone(),
+                    instances,
+                    first_instance,
+                    seed,
+                })?;
+                // The everyday lexicon belongs to no corpus.
+                Ok((corpus, reference(None, 1)?.1))
+            }
         }
     }
 }

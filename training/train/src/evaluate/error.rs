@@ -2,7 +2,10 @@
 
 use crate::{config::ConfigError, error::FitError};
 use asperity_corpus::CorpusError;
-use asperity_io::{diagnostic::{Diagnostic, Fault}, output::OutputError};
+use asperity_io::{
+    diagnostic::{Diagnostic, Fault},
+    output::OutputError,
+};
 use asperity_plot::PlotError;
 use std::path::PathBuf;
 use thiserror::Error;

@@ -1,28 +1,25 @@
 //! Evaluation of a trained model: a report of a model folder.
 //!
-//! Eight parts, each measured alone and kept when finished:
-//! 1. [`clustering`]: materials in the latent, beside the paper's figures, and the information about its inputs that
+//! Parts, each measured alone and kept when finished:
+//! 1. `clustering`: materials in the latent, beside the paper's figures, and the information about its inputs that
 //!    the latent retains;
-//! 2. [`retrieval`]: materials found by captions never trained on;
-//! 3. [`held_out`]: textures of materials never trained on, by k-fold cross-validation;
-//! 4. [`probes`]: paraphrases, negations, and pairs that people rank;
-//! 5. [`midpoints`]: latents halfway between two materials;
-//! 6. [`map`]: pictures of the anchors;
-//! 7. [`names`]: materials found by their names, and by synonyms left out of training;
-//! 8. [`held_out`]: taps completed from AR models, and AR models from taps.
+//! 2. `retrieval`: materials found by captions never trained on;
+//! 3. `held_out`: textures of materials never trained on, by k-fold cross-validation;
+//! 4. `probes`: paraphrases, negations, and pairs that people rank;
+//! 5. `midpoints`: latents halfway between two materials;
+//! 7. `names`: materials found by their names, and by synonyms left out of training;
+//! 8. `held_out`: taps completed from AR models, and AR models from taps.
 
 mod cache;
-pub mod clustering;
+mod clustering;
 mod data;
-mod draws;
 mod error;
-pub mod held_out;
-pub mod map;
-pub mod midpoints;
-pub mod names;
-pub mod probes;
+mod held_out;
+mod midpoints;
+mod names;
+mod probes;
 mod report;
-pub mod retrieval;
+mod retrieval;
 mod signature;
 mod subject;
 #[cfg(test)]
@@ -30,11 +27,9 @@ mod tests;
 mod texts;
 mod watch;
 
-pub use crate::statistics::{Share, Spread};
 pub use error::EvaluateError;
-pub use report::{Conditions, Report};
-pub use signature::Objective;
-pub use watch::{Unwatched, Watch};
+pub use report::Report;
+pub use watch::Watch;
 
 use crate::{attributes::Layout, captions::Captions, config::Config, statistics};
 use asperity::learned::{inference::Backend, text::TextEncoder};
@@ -42,7 +37,6 @@ use asperity_corpus::{Corpus, reference::LexiconEntry};
 use signature::Signature;
 use std::{
     collections::BTreeSet,
-    fmt,
     path::{Path, PathBuf},
     str::FromStr,
 };
@@ -86,8 +80,6 @@ pub enum Part {
     Probes,
     /// 5
     Midpoints,
-    /// 6
-    Map,
     /// 7
     Names,
     /// 8
@@ -95,16 +87,15 @@ pub enum Part {
 }
 
 impl Part {
-    /// All of them, in their order.
-    pub const ALL: [Self; 8] = [
-        Self::Clustering,
-        Self::Retrieval,
-        Self::HeldOut,
-        Self::Probes,
-        Self::Midpoints,
-        Self::Map,
-        Self::Names,
-        Self::Completion,
+    /// All of them with their numbers, in their order.
+    const ALL: [(u8, Self); 7] = [
+        (1, Self::Clustering),
+        (2, Self::Retrieval),
+        (3, Self::HeldOut),
+        (4, Self::Probes),
+        (5, Self::Midpoints),
+        (7, Self::Names),
+        (8, Self::Completion),
     ];
 }
 
@@ -112,15 +103,10 @@ impl FromStr for Part {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let number: usize = text.parse().map_err(|_| "a number from 1 to 8")?;
-        let part = number.checked_sub(1).and_then(|index| Self::ALL.get(index));
-        part.copied().ok_or_else(|| "a number from 1 to 8".into())
-    }
-}
-
-impl fmt::Display for Part {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", *self as usize + 1)
+        let number = text.parse().ok();
+        let part = Self::ALL.iter().find(|(own, _)| Some(*own) == number);
+        part.map(|(_, part)| *part)
+            .ok_or_else(|| "1 to 5, 7 or 8".into())
     }
 }
 
@@ -173,9 +159,7 @@ pub fn evaluate(
         options.report,
         &format!(
             "{:08x} {:08x} {:08x}",
-            bench.subject.crc32,
-            bench.corpus.crc32,
-            bench.texts.fingerprint()
+            bench.subject.crc32, bench.corpus.crc32, bench.texts.fingerprint
         ),
     )?;
     let asked = |part| options.parts.contains(&part);
@@ -221,10 +205,6 @@ pub fn evaluate(
         watch.begin("midpoints", 1);
         midpoints::measure(subject, &bench.signatures)
     })?;
-    report.map = cache.part("map", "", asked(Part::Map), || {
-        watch.begin("map", 1);
-        Ok(map::measure(subject))
-    })?;
     report.names = cache.part("names", "", asked(Part::Names), || {
         let (captions, config) = (&bench.captions, &bench.config);
         names::measure(subject, &bench.corpus, captions, materials, config, watch)
@@ -257,11 +237,11 @@ fn set_up<'a>(
     }
     let config = data::config_of(options.model)?;
     watch.begin("corpus", 1);
-    let (corpus, lexicon) = data::training(&options.corpus, &config)?;
+    let (corpus, lexicon) = options.corpus.load(&config, config.seed, 0)?;
     let materials = data::materials(&subject, &corpus)?;
     let texts = Texts::open(encoder, options.report)?;
     texts.learn(every_text(&corpus, &lexicon), watch)?;
-    let captions = Captions::encode(&corpus, &lexicon, &texts)?;
+    let captions = Captions::encode(&corpus, &lexicon, &texts.remembered)?;
     let layout = Layout::of(&corpus);
     let signatures = materials
         .iter()

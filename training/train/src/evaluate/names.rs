@@ -2,7 +2,6 @@
 
 use super::{
     EvaluateError, Watch,
-    draws::Draws,
     held_out::SAME,
     retrieval::{Found, TfIdf, Words, found},
     statistics::Share,
@@ -15,6 +14,7 @@ use crate::{
     kernel_ridge::KernelRidge,
     lda_retrieval::LdaRetrieval,
     material::MaterialLatent,
+    rng::Stream,
     text_stage::Examples,
     words_held_out::groups,
 };
@@ -257,7 +257,7 @@ impl Setting<'_> {
 
 /// The fold of each synonym: near synonyms of a material are left out together.
 fn folds(synonyms: &[Name<'_>], seed: u64) -> Vec<usize> {
-    let mut draws = Draws::new(seed);
+    let mut draws = Stream::seeded(seed);
     let mut folds = Vec::with_capacity(synonyms.len());
     for own in synonyms.chunk_by(|a, b| a.owner == b.owner) {
         let vectors: Vec<&[f32]> = own.iter().map(|name| name.vector).collect();

@@ -1,7 +1,11 @@
 //! Signatures of textures for comparison: spectra, levels, transients and objective attributes.
 
 use crate::attributes::{self, Layout};
-use asperity::signal::{level::nyquist_rms, lsf, spectrum::{ArmaModel, squared_magnitude}};
+use asperity::signal::{
+    level::nyquist_rms,
+    lsf,
+    spectrum::{ArmaModel, squared_magnitude},
+};
 use asperity_corpus::{BINS, Instance, SAMPLE_RATE_HZ, TAP_RATE_HZ, TAP_SAMPLES, TAPS};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
@@ -21,31 +25,31 @@ const LEAST_SLOPE: f64 = 1e-2;
 
 /// Objective attributes, as the compiler defines them for a texture.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Objective {
+pub(super) struct Objective {
     /// Level above 40 Hz at 100 mm/s and 1 N, dB re 1 (m/s²)².
-    pub rough_db: f64,
+    pub(super) rough_db: f64,
     /// Spectral centroid of the same, Hz.
-    pub sharp_hz: f64,
+    pub(super) sharp_hz: f64,
     /// Spectral centroid of the fastest trace, Hz.
-    pub hard_hz: f64,
+    pub(super) hard_hz: f64,
     /// Coefficient of kinetic friction; slipperiness is −μ.
-    pub mu: f64,
+    pub(super) mu: f64,
 }
 
 impl Objective {
     /// Names of [`values`](Self::values).
-    pub const NAMES: [&str; 4] = ["rough_db", "sharp_hz", "hard_hz", "mu"];
+    pub(super) const NAMES: [&str; 4] = ["rough_db", "sharp_hz", "hard_hz", "mu"];
 
     /// In the order of [`NAMES`](Self::NAMES).
     #[must_use]
-    pub fn values(&self) -> [f64; 4] {
+    pub(super) fn values(&self) -> [f64; 4] {
         [self.rough_db, self.sharp_hz, self.hard_hz, self.mu]
     }
 
     /// The same on scales on which equal steps are about equally large: dB, and natural
     /// logarithms of Hz and μ.
     #[must_use]
-    pub fn even(&self) -> [f64; 4] {
+    pub(super) fn even(&self) -> [f64; 4] {
         let log = |x: f64| libm::log(x.max(1e-6));
         [
             self.rough_db,

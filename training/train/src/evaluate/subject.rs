@@ -5,7 +5,13 @@ use super::{
     signature::{Objective, Signature},
 };
 use crate::{attributes::Layout, trained::Seen};
-use asperity::{model::{attributes, Provenance, shift}, learned::{inference::Backend, Decoded, Files, Latent, LearnedModel, Present, Projected, description::ModelDescription, friction, texture}};
+use asperity::{
+    learned::{
+        Decoded, Files, Latent, LearnedModel, Present, Projected, description::ModelDescription,
+        friction, inference::Backend, texture,
+    },
+    model::{Provenance, attributes, shift},
+};
 use asperity_corpus::{BINS, CHANNELS, Instance, ORDER, TAP_SAMPLES, TAPS};
 use asperity_io::diagnostic::Fault;
 use rayon::prelude::*;

@@ -3,8 +3,7 @@
 
 use super::{EvaluateError, Watch, cache, watch::pause};
 use crate::{error::FitError, vectors::Remembered};
-use asperity::learned::text::{Encoded, TextEncoder};
-use asperity_io::diagnostic::Fault;
+use asperity::learned::text::TextEncoder;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -17,10 +16,10 @@ const PROBE: &str = "a rough surface";
 
 /// A text encoder with the vectors it gave.
 pub(super) struct Texts<'a> {
-    remembered: Remembered<'a>,
+    pub(super) remembered: Remembered<'a>,
     path: PathBuf,
     /// Checksum of the probe's vector: another encoder or back end has another.
-    fingerprint: u32,
+    pub(super) fingerprint: u32,
 }
 
 impl<'a> Texts<'a> {
@@ -38,11 +37,6 @@ impl<'a> Texts<'a> {
             path,
             fingerprint,
         })
-    }
-
-    /// By what the encoder is known.
-    pub(super) fn fingerprint(&self) -> u32 {
-        self.fingerprint
     }
 
     /// Encodes what is not known yet, and keeps it.
@@ -80,24 +74,10 @@ impl<'a> Texts<'a> {
     }
 }
 
-impl TextEncoder for Texts<'_> {
-    fn name(&self) -> &str {
-        self.remembered.name()
-    }
-
-    fn width(&self) -> usize {
-        self.remembered.width()
-    }
-
-    fn encode(&self, text: &str) -> Result<Encoded, Fault> {
-        self.remembered.encode(text)
-    }
-}
-
 fn encode(encoder: &dyn TextEncoder, text: &str) -> Result<Vec<f32>, EvaluateError> {
-    let encoded = encoder.encode(text).map_err(|source| FitError::Caption {
+    let encoded = encoder.encode(text).map_err(|fault| FitError::Caption {
         caption: text.to_owned(),
-        source,
+        source: fault.into(),
     })?;
     Ok(encoded.vector)
 }
@@ -105,7 +85,7 @@ fn encode(encoder: &dyn TextEncoder, text: &str) -> Result<Vec<f32>, EvaluateErr
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{evaluate::Unwatched, synthetic::WordBag};
+    use crate::synthetic::{Unwatched, WordBag};
 
     #[test]
     fn vectors_survive_a_run_and_half_a_file_is_no_loss() {

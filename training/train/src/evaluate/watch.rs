@@ -15,15 +15,6 @@ pub trait Watch {
     }
 }
 
-/// Listens to nothing.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Unwatched;
-
-impl Watch for Unwatched {
-    fn begin(&mut self, _: &str, _: usize) {}
-    fn done(&mut self, _: usize) {}
-}
-
 /// Gives up if asked to.
 pub(super) fn pause(watch: &dyn Watch, what: &str) -> Result<(), EvaluateError> {
     if watch.interrupted() {

@@ -62,7 +62,7 @@ fn card(
         "| text encoder | {}, {} numbers |",
         trained.encoder, trained.width
     )?;
-    writeln!(text, "| parameters | {} |", trained.parameter_count())?;
+    writeln!(text, "| parameters | {} |", trained.parameters.count())?;
     writeln!(text, "| seed | {} |", description.seed)?;
     writeln!(text, "| epochs | {} |", trained.history.len())?;
     writeln!(text, "\n## On the materials it was trained on\n")?;

@@ -10,23 +10,32 @@ use std::{
 /// By this file a model folder is known.
 const MARK: &str = "model.json";
 
-/// Writes the files into a folder beside `target` and renames it over.
-pub(super) fn write(target: &Path, files: &[(&'static str, Vec<u8>)]) -> Result<(), ExportError> {
-    let fail = |doing: &'static str| {
-        let path = target.to_owned();
-        move |source: io::Error| OutputError {
-            path,
-            doing,
-            source,
-        }
-    };
-    let parent = parent(target);
+/// Refuses a `target` that cannot become a model folder. Returns true if it is there.
+pub(super) fn check(target: &Path) -> Result<bool, ExportError> {
     let existing = fs::symlink_metadata(target).is_ok();
     if existing && !is_replaceable(target) {
         return Err(ExportError::Occupied {
             path: target.to_owned(),
         });
     }
+    fs::metadata(parent(target)).map_err(fail(target, "cannot reach its folder"))?;
+    Ok(existing)
+}
+
+fn fail(target: &Path, doing: &'static str) -> impl FnOnce(io::Error) -> OutputError {
+    let path = target.to_owned();
+    move |source| OutputError {
+        path,
+        doing,
+        source,
+    }
+}
+
+/// Writes the files into a folder beside `target` and renames it over.
+pub(super) fn write(target: &Path, files: &[(&'static str, Vec<u8>)]) -> Result<(), ExportError> {
+    let fail = |doing| fail(target, doing);
+    let parent = parent(target);
+    let existing = check(target)?;
     let cannot = "cannot write beside it";
     let staged = tempfile::Builder::new()
         .prefix(".asperity-")

@@ -74,8 +74,7 @@ impl Diagnostic for ExportError {
     fn remedy(&self) -> String {
         match self {
             Self::Graph { .. } | Self::Run { .. } | Self::Disagreement { .. } => {
-                "report it: nothing was written; train again with --resume to try another version"
-                    .into()
+                "report it: nothing was written".into()
             }
             Self::Encode { .. } => "lower optimiser.learning_rate: a number is not finite".into(),
             Self::Occupied { .. } => "give the path of a new folder, or of an older model".into(),
@@ -94,12 +93,12 @@ impl ModelFiles {
         self.0.iter().map(|(name, bytes)| (*name, bytes.as_slice()))
     }
 
-    /// The contents of a file.
-    #[must_use]
-    pub fn get(&self, name: &str) -> Option<&[u8]> {
-        self.iter()
-            .find(|(file, _)| *file == name)
-            .map(|(_, bytes)| bytes)
+    /// Checks before a training that [`write`](Self::write) can make `target` a model folder.
+    ///
+    /// # Errors
+    /// [`ExportError::Occupied`]; [`ExportError::Output`] where its parent cannot be reached.
+    pub fn check(target: &Path) -> Result<(), ExportError> {
+        folder::check(target).map(drop)
     }
 
     /// Makes them the folder `target`: written beside it, then renamed. A model that was

@@ -50,7 +50,7 @@ fn finish(file: &'static str, writer: &Writer<'_>) -> Result<File, ExportError> 
 /// every material, `familiarity` [B, 1], and from a memory with a lexicon `felt` [B, 3]: dB, −ln μ
 /// and ln Hz.
 fn text_projection(trained: &Trained) -> Writer<'_> {
-    let mut writer = Writer::new("text_projection", &trained.projection_parameters);
+    let mut writer = Writer::new("text_projection", &trained.parameters);
     let (width, count) = (trained.width, trained.materials.len());
     let embedding = writer.input("embedding", &[width]);
     let mut columns = vec![0.0; width * count];
@@ -64,7 +64,7 @@ fn text_projection(trained: &Trained) -> Writer<'_> {
     let Remembered { z, felt, likeness } = match &trained.memory {
         Some(memory) => from_memory(&mut writer, trained, memory, &direction),
         None => Remembered {
-            z: writer.chain(&trained.projection.layers, &embedding),
+            z: writer.chain(&trained.network.text.layers, &embedding),
             felt: None,
             likeness: writer.plus(&similarity, -1.0),
         },
@@ -332,10 +332,6 @@ fn ar_decoder(trained: &Trained) -> Writer<'_> {
     let code = writer.plus(&bounded, centre);
     let level_db = match normaliser.coding.excitation {
         Excitation::Level => code,
-        Excitation::LogSigma => {
-            let gain_db = gain::decibels(&mut writer, &lsf_rad);
-            writer.graph.add(&code, &gain_db)
-        }
         Excitation::Variance => {
             // The bounds are positive, but rounding may reach below the lower one.
             let code = writer.graph.clip(&code, low, high);
@@ -449,9 +445,6 @@ fn excitation_code(
     }
     let gain_db = gain::decibels(writer, lsf_rad);
     let sigma_db = writer.graph.sub(level_db, &gain_db);
-    if excitation == Excitation::LogSigma {
-        return sigma_db;
-    }
     let exponent = writer.times(&sigma_db, (0.1 * LN_10) as f32);
     writer.graph.unary("Exp", &exponent)
 }

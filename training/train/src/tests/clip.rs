@@ -1,8 +1,18 @@
 //! From a text tower of CLIP's signature, tiny and made up, to a texture of a prompt.
 
 use super::{folder::exported_of, training::small};
-use crate::{Captions, Silent, fit_on, synthetic};
-use asperity::{learned::{inference::Backend, Files, LearnedModel, text::{TextEncoder as _, clip::Clip}}, sources::prompt::{Options, PromptCompiler}};
+use crate::{
+    Captions, fit_on,
+    synthetic::{self, Silent},
+};
+use asperity::{
+    learned::{
+        Files, LearnedModel,
+        inference::Backend,
+        text::{TextEncoder as _, clip::Clip},
+    },
+    sources::prompt::{Options, PromptCompiler},
+};
 use asperity_nn::{
     Dim, ElementType, Tensor,
     build::{Attribute, GraphBuilder},

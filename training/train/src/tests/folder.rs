@@ -2,13 +2,14 @@
 
 use super::training::small;
 use crate::{
-    Captions, Checkpoints, Config, EpochLoss, FitError, ModelFiles, Progress, Silent, Trained,
+    Captions, Config, ModelFiles,
     config::Excitation,
-    export, fit_on, fit_with_checkpoints, measure,
+    export, fit_on, measure,
     rng::{Purpose, Stream},
-    synthetic::{self, WordBag},
+    synthetic::{self, Silent, WordBag},
+    trained::Trained,
 };
-use asperity::learned::{inference::Backend, Files, LearnedModel, description::LATENT};
+use asperity::learned::{Files, LearnedModel, description::LATENT, inference::Backend};
 use asperity_corpus::Corpus;
 
 const MATERIALS: [usize; 6] = [0, 1, 2, 3, 4, 5];
@@ -37,11 +38,7 @@ pub(super) fn exported_of(trained: &Trained, corpus: &Corpus, captions: &Caption
 
 #[test]
 fn the_compiler_loads_what_is_written_and_decodes_the_same() {
-    for excitation in [
-        Excitation::Level,
-        Excitation::LogSigma,
-        Excitation::Variance,
-    ] {
+    for excitation in [Excitation::Level, Excitation::Variance] {
         let mut config = short();
         config.coding.excitation = excitation;
         let (corpus, captions) = data();
@@ -91,7 +88,7 @@ fn a_model_of_few_epochs_and_a_wide_range_of_variances_is_written() {
     config.optimiser.epochs = 1;
     config.coding.excitation = Excitation::Variance;
     let trained = fit_on(&corpus, &MATERIALS, &captions, &config, &mut Silent).unwrap();
-    let (low, high) = trained.normaliser().level_bounds_db;
+    let (low, high) = trained.normaliser.level_bounds_db;
     let mut stream = Stream::new(5, Purpose::Epoch, 0);
     for scale in [1.0, 30.0, 1e3, 1e4] {
         let latents: Vec<[f32; LATENT]> = (0..20)
@@ -115,59 +112,6 @@ fn the_same_seed_writes_the_same_bytes() {
     let run = || fit_on(&corpus, &MATERIALS, &captions, &short(), &mut Silent).unwrap();
     let (first, again) = (exported(&run()), exported(&run()));
     for ((name, bytes), (_, others)) in first.iter().zip(again.iter()) {
-        assert!(bytes == others, "{name} differs");
-    }
-}
-
-/// Stops after some epochs.
-struct StopAfter(usize, usize);
-
-impl Progress for StopAfter {
-    fn epoch(&mut self, epoch: usize, _: usize, _: &EpochLoss) {
-        self.1 = epoch;
-    }
-    fn text_epoch(&mut self, _: usize, _: usize, _: f32) {}
-    fn interrupted(&self) -> bool {
-        self.1 >= self.0
-    }
-}
-
-#[test]
-fn a_resumed_run_ends_as_one_that_was_not_interrupted() {
-    let (corpus, captions) = data();
-    let config = short();
-    let whole = fit_on(&corpus, &MATERIALS, &captions, &config, &mut Silent).unwrap();
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("checkpoint.safetensors");
-    let run = |config: &Config, resume, progress: &mut dyn Progress| {
-        let checkpoints = Checkpoints {
-            path: &path,
-            every: 4,
-            resume,
-        };
-        fit_with_checkpoints(
-            &corpus,
-            &MATERIALS,
-            &captions,
-            config,
-            checkpoints,
-            progress,
-        )
-    };
-    let stopped = run(&config, false, &mut StopAfter(3, 0));
-    assert!(matches!(stopped, Err(FitError::Interrupted { epoch: 3 })));
-    let mut other = config.clone();
-    other.loss.ar = 1.0;
-    let refused = run(&other, true, &mut Silent).unwrap_err().to_string();
-    assert!(refused.contains("another configuration"), "{refused}");
-    let mut without_text = config.clone();
-    without_text.text_stage = None;
-    let first_stage = run(&without_text, true, &mut Silent).unwrap();
-    assert_eq!(first_stage.history(), whole.history());
-    let resumed = run(&config, true, &mut Silent).unwrap();
-    assert_eq!(resumed.history(), whole.history());
-    let (resumed, whole) = (exported(&resumed), exported(&whole));
-    for ((name, bytes), (_, others)) in resumed.iter().zip(whole.iter()) {
         assert!(bytes == others, "{name} differs");
     }
 }

@@ -4,7 +4,6 @@ use super::costs::Costs;
 use super::errors::{BUDGET, error_axis, within};
 use super::labels::Labels;
 use super::mark::{DEFAULT, UNSTABLE, mark, of_factor};
-use super::picture::{Picture, finished};
 use crate::pareto::measure::Results;
 use crate::pareto::summary::VariantSummary;
 use asperity::passes::reduce::BUDGET_DB;
@@ -47,8 +46,8 @@ impl Measure {
     }
 }
 
-pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
-    let mut canvas = Canvas::recording(SIZE.0 as u32, SIZE.1 as u32)?;
+pub(super) fn draw(results: &Results) -> Result<Vec<u8>, PlotError> {
+    let mut canvas = Canvas::new(SIZE.0 as u32, SIZE.1 as u32)?;
     let costs = Costs::of(results);
     let (width, height) = (SIZE.0 / COLUMNS as f32, (SIZE.1 - LEGEND) / 4.0);
     let keys = [
@@ -69,7 +68,7 @@ pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
         );
         draw_factor(&mut canvas, results, &costs, (index, factor), outer);
     }
-    finished(&canvas)
+    canvas.png()
 }
 
 fn draw_factor(
@@ -115,7 +114,7 @@ fn draw_factor(
         if summary.unstable > 0.0 {
             text += &format!(" ({:.2} % unstable)", 100.0 * summary.unstable);
         }
-        labels.set(canvas, &text, panel.position(x, y), ink::BLACK);
+        labels.set(canvas, &text, panel.position(x, y));
     }
 }
 

@@ -1,7 +1,6 @@
 //! Savings and costs of `--fidelity auto`, a point for each material.
 
 use super::errors::BUDGET;
-use super::picture::{Picture, finished};
 use crate::pareto::kept::Kept;
 use crate::pareto::measure::Results;
 use asperity::passes::reduce::BUDGET_DB;
@@ -9,8 +8,8 @@ use asperity_plot::{Axis, Canvas, Key, Marker, Panel, PlotError, Rect, Stroke, i
 
 const SIZE: (u32, u32) = (2200, 860);
 
-pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
-    let mut canvas = Canvas::recording(SIZE.0, SIZE.1)?;
+pub(super) fn draw(results: &Results) -> Result<Vec<u8>, PlotError> {
+    let mut canvas = Canvas::new(SIZE.0, SIZE.1)?;
     let half = SIZE.0 as f32 / 2.0;
     let count = results.kept.len() as f64;
     let materials = || Axis::new("Materials, sorted", 0.0, count + 1.0);
@@ -94,5 +93,5 @@ pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
     }
     keys.push((Key::Line(BUDGET), "budgets, 0.5 and 1 dB"));
     lost.legend(&mut canvas, &keys);
-    finished(&canvas)
+    canvas.png()
 }

@@ -4,7 +4,6 @@ use super::costs::Costs;
 use super::errors::{BUDGET, error_axis, larger_error};
 use super::labels::Labels;
 use super::mark::{DEFAULT, UNSTABLE, mark, of_factor};
-use super::picture::{Picture, finished};
 use crate::pareto::front::on_front;
 use crate::pareto::measure::Results;
 use crate::pareto::summary::VariantSummary;
@@ -15,8 +14,8 @@ use asperity_plot::{Canvas, Key, Panel, PlotError, Rect, Stroke, ink};
 const SIZE: (u32, u32) = (2000, 1300);
 const FRONT: Stroke = Stroke::new(ink::LIGHT, 3.0);
 
-pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
-    let mut canvas = Canvas::recording(SIZE.0, SIZE.1)?;
+pub(super) fn draw(results: &Results) -> Result<Vec<u8>, PlotError> {
+    let mut canvas = Canvas::new(SIZE.0, SIZE.1)?;
     let costs = Costs::of(results);
     let panel = Panel::new(
         Rect::new(0.0, 0.0, SIZE.0 as f32, SIZE.1 as f32),
@@ -87,9 +86,9 @@ pub(super) fn draw(results: &Results) -> Result<Picture, PlotError> {
         if summary.unstable > 0.0 {
             text += &format!(" ({:.2} % unstable)", 100.0 * summary.unstable);
         }
-        labels.set(&mut canvas, &text, at, ink::BLACK);
+        labels.set(&mut canvas, &text, at);
     }
-    finished(&canvas)
+    canvas.png()
 }
 
 fn draw_legend(canvas: &mut Canvas, panel: &Panel) {

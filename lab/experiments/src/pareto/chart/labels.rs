@@ -1,6 +1,6 @@
 //! Names beside points, placed so that none overlaps another.
 
-use asperity_plot::{Align, Canvas, Color, Rect, Stroke, TextStyle, VAlign, ink, size};
+use asperity_plot::{Align, Canvas, Rect, Stroke, TextStyle, VAlign, ink, size};
 
 /// From a point to a name that stands off.
 const LEADER: Stroke = Stroke::new(ink::GREY, 1.0);
@@ -38,10 +38,8 @@ impl Labels {
 
     /// Sets a name beside a point where there is room, with a line to the point if others stand
     /// between, and leaves it out where there is no room.
-    pub(super) fn set(&mut self, canvas: &mut Canvas, text: &str, at: (f32, f32), color: Color) {
-        let style = TextStyle::new(size::TICK - 2.0)
-            .color(color)
-            .align(Align::Left, VAlign::Middle);
+    pub(super) fn set(&mut self, canvas: &mut Canvas, text: &str, at: (f32, f32)) {
+        let style = TextStyle::new(size::TICK - 2.0).align(Align::Left, VAlign::Middle);
         let (width, height) = (canvas.text_width(text, &style), style.size);
         let (x, y) = at;
         let side = 13.0;

@@ -140,7 +140,7 @@ pub fn rows(seed: u64) -> Result<Vec<Row>, StabilityError> {
         let plan = FaultPlan::default().with(fault, 0.05, 2);
         let energy = |renderer| {
             let servo = RenderedTexture::new(renderer, &silent.slot, seed);
-            in_a_hand(&device, GripPreset::Firm, servo, plan, seed).map(|j| 1e3 * j)
+            in_a_hand(&device, GripPreset::Firm, servo, plan.clone(), seed).map(|j| 1e3 * j)
         };
         let told_of_two = MechanicsConfig {
             delay_ticks: 2,
@@ -232,7 +232,7 @@ fn in_a_hand<S: Servo>(
     device: &DeviceConfig,
     preset: GripPreset,
     servo: S,
-    plan: FaultPlan,
+    plan: FaultPlan<SampleFault>,
     seed: u64,
 ) -> Result<f64, StabilityError> {
     let script = Script::new(vec![
@@ -247,7 +247,7 @@ fn in_a_hand<S: Servo>(
             duration_s: 1.0,
         },
     ]);
-    let servo = FaultInjector::new(servo, plan, seed).expect("a plan that makes sense");
+    let servo = FaultInjector::new(servo, plan, seed);
     let mut session = Session::new(device, Grip::preset(preset)?, script, servo);
     let records = session.run(8000);
     Ok(net_j(device, &records))

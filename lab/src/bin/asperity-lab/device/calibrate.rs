@@ -13,6 +13,7 @@ use asperity_lab::calibration::{
 use asperity_sim::device::DeviceConfig;
 
 use crate::error::Plain;
+use crate::loop_options::within;
 
 /// Fit the response of a device to commanded forces, and write its profile
 ///
@@ -39,7 +40,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "TOML", conflicts_with = "table_file")]
     device: Option<PathBuf>,
     /// Amplitude of the simulated sweep, N (0.01 to 10)
-    #[arg(long, value_name = "N", default_value_t = 1.0, value_parser = amplitude, conflicts_with = "table_file")]
+    #[arg(long, value_name = "N", default_value_t = 1.0, value_parser = within(0.01..=10.0, " N"), conflicts_with = "table_file")]
     amplitude: f64,
     /// Write the table of the simulated sweep; `-` is standard output
     #[arg(long, value_name = "OUT.csv", conflicts_with = "table_file")]
@@ -53,14 +54,6 @@ pub(crate) struct Arguments {
     /// Keep a calibration whose gain, unit, force or filter is implausible
     #[arg(long)]
     force: bool,
-}
-
-fn amplitude(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(value) if (0.01..=10.0).contains(&value) => Ok(value),
-        Ok(_) => Err("must be 0.01 to 10 N".into()),
-        Err(_) => Err("must be a number of newtons".into()),
-    }
 }
 
 pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failures> {

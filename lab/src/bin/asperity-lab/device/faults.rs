@@ -7,7 +7,6 @@ use asperity_formats::Asset;
 use asperity_host::device::Scheme;
 use asperity_host::device::fault_injection::InjectedFault;
 use asperity_host::device::fault_injection::trial::{Paced, Row, Trial};
-use asperity_host::fault_plan::FaultKind as _;
 use asperity_io::diagnostic::{Failures, one};
 use asperity_io::shown::counted;
 use asperity_lab::servo_session;
@@ -16,6 +15,7 @@ use serde_json::json;
 
 use super::probe::parse;
 use crate::error::Plain;
+use crate::loop_options::within;
 
 /// Inject every kind of fault while a device is in contact, and record the force
 ///
@@ -35,10 +35,10 @@ pub(crate) struct Arguments {
     #[arg(value_name = "URI")]
     uri: String,
     /// Force limit, N (0.1 to 8.9), or the limit of the device if that is lower
-    #[arg(long, value_name = "N", default_value_t = 1.0, value_parser = peak)]
+    #[arg(long, value_name = "N", default_value_t = 1.0, value_parser = within(0.1_f32..=8.9, " N"))]
     peak_n: f32,
     /// Initial depth of the device in the surface, mm (1 to 60)
-    #[arg(long, value_name = "MM", default_value_t = 5.0, value_parser = depth)]
+    #[arg(long, value_name = "MM", default_value_t = 5.0, value_parser = within(1.0_f32..=60.0, " mm"))]
     depth_mm: f32,
     /// Timeout for the first position, s (1 to 600); homing a Falcon takes a while
     #[arg(long, value_name = "S", default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..=600))]
@@ -53,27 +53,14 @@ const TRIES: u32 = 5;
 /// Periods before a fault.
 const WARM_UP: u32 = 300;
 
-fn peak(text: &str) -> Result<f32, String> {
-    let value = text
-        .parse()
-        .ok()
-        .filter(|value| (0.1..=8.9).contains(value));
-    value.ok_or_else(|| "must be 0.1 to 8.9 N".into())
-}
-
-fn depth(text: &str) -> Result<f32, String> {
-    let value = text
-        .parse()
-        .ok()
-        .filter(|value| (1.0..=60.0).contains(value));
-    value.ok_or_else(|| "must be 1 to 60 mm".into())
-}
-
 /// Gives whether every promise was kept.
 pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failures> {
     let uri = parse(&arguments.uri)?;
     if uri.scheme == Scheme::Touch {
-        return Err(super::touch_cannot_be_driven());
+        return Err(Plain::failure(
+            "a Touch cannot be driven over USB, because its protocol is not public",
+            "install the vendor's OpenHaptics and its driver, and use `openhaptics:`",
+        ));
     }
     let bug = |error: &dyn std::fmt::Display| Plain::failure(error, "report this as a bug");
     let lowered =

@@ -170,7 +170,7 @@ fn state(found: &Found) -> (&'static str, String) {
 }
 
 /// Formats the entry of a USB device.
-pub(super) fn line(found: &Found) -> String {
+fn line(found: &Found) -> String {
     // What a device says of itself is no part of our text.
     let serial = found.serial.as_deref().map(plain);
     let serial = serial.as_deref().unwrap_or("no serial number");

@@ -4,12 +4,11 @@ use std::path::PathBuf;
 
 use asperity_console::Console;
 use asperity_host::device::usb::scan::scan;
-use asperity_host::device::usb::watch::{Event, watch};
 use asperity_host::device::usb::{Ids, permission};
 use asperity_io::diagnostic::{Failures, one};
 
 use super::failure;
-use super::inventory::{Inventory, line};
+use super::inventory::{Inventory, libraries};
 
 /// List the devices that can be opened: on USB, through vendor libraries, and simulated ones
 ///
@@ -36,11 +35,8 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "TOML")]
     ids: Option<PathBuf>,
     /// Only print the udev rules that let a user open these devices
-    #[arg(long, conflicts_with_all = ["all", "json", "watch"])]
+    #[arg(long, conflicts_with_all = ["all", "json"])]
     rules: bool,
-    /// Keep running, and report devices as they are plugged in or unplugged
-    #[arg(long, conflicts_with = "json")]
-    watch: bool,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -52,12 +48,9 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     if arguments.rules {
         return console.text(&permission::rules(&ids)).map_err(one);
     }
-    if arguments.watch {
-        return follow(&ids, console);
-    }
     let inventory = Inventory {
         usb: scan(&ids),
-        libraries: super::inventory::libraries(),
+        libraries: libraries(),
         all: arguments.all,
     };
     if arguments.json {
@@ -65,19 +58,4 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     } else {
         console.text(&inventory.text()).map_err(one)
     }
-}
-
-fn follow(ids: &Ids, console: Console) -> Result<(), Failures> {
-    let mut printed = Ok(());
-    let each = |event: Option<Event>| {
-        let text = match event {
-            None => return true,
-            Some(Event::Arrived(found)) => format!("+ {}", line(&found)),
-            Some(Event::Left(found)) => format!("- {}\n", found.place()),
-        };
-        printed = console.text(&text);
-        printed.is_ok()
-    };
-    watch(ids, each).map_err(|error| failure(&error, error.remedy()))?;
-    printed.map_err(one)
 }

@@ -1,7 +1,6 @@
 //! `asperity-lab device`: devices on USB, real and virtual.
 
 mod calibrate;
-mod exercise;
 mod faults;
 mod inventory;
 mod list;
@@ -17,7 +16,6 @@ use clap::Subcommand;
 #[command(after_help = "Examples:
   asperity-lab device list
   asperity-lab device probe falcon:?firmware=falcon.bin
-  asperity-lab device exercise falcon: --ticks 10000
   asperity-lab device faults falcon: --peak-n 1
   asperity-lab device serve falcon
   asperity-lab device calibrate -o touch.toml")]
@@ -30,7 +28,6 @@ pub(crate) struct Arguments {
 enum Command {
     List(list::Arguments),
     Probe(probe::Arguments),
-    Exercise(exercise::Arguments),
     Faults(faults::Arguments),
     Serve(serve::Arguments),
     Calibrate(calibrate::Arguments),
@@ -41,7 +38,6 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
     match &arguments.command {
         Command::List(arguments) => list::run(arguments, console).map(|()| true),
         Command::Probe(arguments) => probe::run(arguments, console),
-        Command::Exercise(arguments) => exercise::run(arguments, console),
         Command::Faults(arguments) => faults::run(arguments, console),
         Command::Serve(arguments) => serve::run(arguments, console).map(|()| true),
         Command::Calibrate(arguments) => calibrate::run(arguments, console).map(|()| true),
@@ -51,14 +47,6 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
 /// Prints a value as JSON.
 fn json(console: Console, value: &serde_json::Value) -> Result<(), Failures> {
     console.json(value).map_err(asperity_io::diagnostic::one)
-}
-
-/// A Touch on USB is only identified.
-fn touch_cannot_be_driven() -> Failures {
-    crate::error::Plain::failure(
-        "a Touch cannot be driven over USB, because its protocol is not public",
-        "install the vendor's OpenHaptics and its driver, and use `openhaptics:`",
-    )
 }
 
 /// A failure of a device, with its remedy.

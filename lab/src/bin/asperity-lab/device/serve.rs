@@ -19,6 +19,7 @@ use asperity_virtual_usb::usbip::server::Server;
 use asperity_virtual_usb::{AnyDevice, Port, Socket};
 
 use crate::error::Plain;
+use crate::loop_options::within;
 
 /// Serve virtual devices over USB/IP, so that Linux treats them as real ones
 ///
@@ -41,13 +42,13 @@ pub(crate) struct Arguments {
     #[arg(long, default_value = "127.0.0.1:3240", value_name = "ADDRESS")]
     listen: SocketAddr,
     /// Fraction of bulk transfers that fail: stalls, short transfers, time-outs, unplugging
-    #[arg(long, default_value_t = 0.0, value_parser = share)]
+    #[arg(long, default_value_t = 0.0, value_parser = within(0.0..=1.0, ""))]
     faults: f64,
     /// Seed of the faults
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Stop after this many seconds instead of at Ctrl-C
-    #[arg(long, value_name = "S", value_parser = seconds)]
+    #[arg(long, value_name = "S", value_parser = within(0.1..=86_400.0, " s"))]
     seconds: Option<f64>,
     /// Stop when standard input ends
     #[arg(long, conflicts_with = "seconds")]
@@ -70,22 +71,6 @@ enum Which {
     TouchHid,
     /// A Touch of the first ids, 0301:2988
     TouchFirst,
-}
-
-fn share(text: &str) -> Result<f64, String> {
-    let value = text
-        .parse()
-        .ok()
-        .filter(|value| (0.0..=1.0).contains(value));
-    value.ok_or_else(|| "must be 0 to 1".into())
-}
-
-fn seconds(text: &str) -> Result<f64, String> {
-    let value = text
-        .parse()
-        .ok()
-        .filter(|value| (0.1..=86_400.0).contains(value));
-    value.ok_or_else(|| "must be 0.1 to 86,400 s".into())
 }
 
 fn device(which: Which) -> AnyDevice {

@@ -9,8 +9,8 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use asperity_console::Console;
 use asperity_host::latency::{
-    Collector, Conditions, Cyclictest, CyclictestError, Limits, Load, Loading, Machine, Run,
-    Series, Verdict, Wakeups, percentile_distribution, write_log,
+    Collector, Conditions, Cyclictest, CyclictestError, Limits, Machine, Run, Series, Verdict,
+    Wakeups, percentile_distribution, write_log,
 };
 use asperity_host::servo::{Clock as _, Event, RecordReader, SECOND_NS, Settings, Stage, queues};
 use asperity_io::diagnostic::{Failures, one};
@@ -49,13 +49,6 @@ pub(super) fn measure(arguments: &Arguments, console: Console) -> Result<(), Fai
             system::remedy(&error).unwrap_or("set TMPDIR to a folder that can be written"),
         )
     })?;
-    let load = Load::from(arguments.load);
-    let loading = Loading::start(load, folder.path()).map_err(|error| {
-        Plain::failure(
-            format!("cannot start the load: {error}"),
-            system::remedy(&error).unwrap_or("set TMPDIR to a folder that can be written"),
-        )
-    })?;
     let conditions = Conditions {
         machine: Machine::now(options.cpu),
         rate_hz,
@@ -65,7 +58,6 @@ pub(super) fn measure(arguments: &Arguments, console: Console) -> Result<(), Fai
         refused: Vec::new(),
         device: format!("{}, {}", opened.device.description().name, arguments.device),
         texture: surface.name.clone(),
-        load: load.name().into(),
         injected: arguments.inject.map(|injection| injection.to_string()),
         version: env!("CARGO_PKG_VERSION").into(),
     };
@@ -110,7 +102,7 @@ pub(super) fn measure(arguments: &Arguments, console: Console) -> Result<(), Fai
         },
     )
     .map_err(one)?;
-    drop((opened, loading));
+    drop(opened);
     interrupt.released.store(true, Relaxed);
     bar.set_message("waiting for cyclictest");
     let wakeups = other.and_then(|cyclictest| {

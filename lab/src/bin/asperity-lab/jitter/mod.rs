@@ -7,12 +7,12 @@ use std::path::PathBuf;
 
 use asperity_console::Console;
 use asperity_host::device::Uri;
-use asperity_host::latency::{Injection, Load};
+use asperity_host::latency::Injection;
 use asperity_host::servo::Stage;
 use asperity_io::diagnostic::Failures;
 use asperity_lab::jitter::Unit;
 
-use crate::loop_options::{self, LoopOptions};
+use crate::loop_options::{LoopOptions, within};
 
 /// Inputs accepted by `compare` and `overlay`.
 const FILES: &str =
@@ -30,7 +30,7 @@ distribution (.hgrm, or the report of wrk2), what `cyclictest -h 1000` writes wi
 #[command(after_help = "Examples:
   asperity-lab jitter                                  10 s at 1 kHz without a device
   asperity-lab jitter --seconds 100 --rate 10000 --cpu 1 --cyclictest -o run
-  asperity-lab jitter brick.asp --device sim: --load memory --json
+  asperity-lab jitter brick.asp --device sim: --json
   asperity-lab jitter --inject compute:300:1000        does the report find a delay of 300 µs?
   asperity-lab jitter --seconds 60 --max-us 500 --max-missed 0 --series ticks.csv
   asperity-lab jitter merge monday.hlog tuesday.hlog -o both.hlog
@@ -45,14 +45,11 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     options: LoopOptions,
     /// Device to read and drive; the default is no device, resting 1 mm deep in the texture
-    #[arg(long, value_name = "URI", value_parser = loop_options::device, default_value = "null:?z_mm=-1")]
+    #[arg(long, value_name = "URI", default_value = "null:?z_mm=-1")]
     device: Uri,
     /// Duration of the measurement, s (0.1 to 86400)
-    #[arg(long, value_name = "S", value_parser = loop_options::seconds, default_value = "10")]
+    #[arg(long, value_name = "S", value_parser = within(0.1..=86_400.0, " s"), default_value = "10")]
     seconds: f64,
-    /// Load to put on the machine during the measurement
-    #[arg(long, value_enum, default_value = "none")]
-    load: LoadName,
     /// Inject a delay into one tick in EVERY, to test the measurement: STAGE:MICROSECONDS:EVERY
     #[arg(long, value_name = "DELAY")]
     inject: Option<Injection>,
@@ -162,32 +159,6 @@ impl From<StageName> for Stage {
             StageName::Write => Self::Write,
             StageName::Total => Self::Total,
             StageName::Interval => Self::Interval,
-        }
-    }
-}
-
-#[derive(Debug, Clone, Copy, clap::ValueEnum)]
-enum LoadName {
-    /// No load
-    None,
-    /// A busy thread per processor
-    Cpu,
-    /// A thread per processor that streams through 32 MiB
-    Memory,
-    /// Repeated writes of 16 MiB that wait for the disk
-    Disk,
-    /// 32 threads with timers of 200 µs
-    Timers,
-}
-
-impl From<LoadName> for Load {
-    fn from(name: LoadName) -> Self {
-        match name {
-            LoadName::None => Self::None,
-            LoadName::Cpu => Self::Cpu,
-            LoadName::Memory => Self::Memory,
-            LoadName::Disk => Self::Disk,
-            LoadName::Timers => Self::Timers,
         }
     }
 }

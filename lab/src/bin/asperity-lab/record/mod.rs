@@ -23,7 +23,7 @@ use asperity_lab::servo_session::{OpenDevice, Setup, Surface, run as run_loop, r
 use asperity_recording::description::Quantity;
 
 use crate::error::{Plain, all};
-use crate::loop_options::{self, Interrupt, LoopOptions, stop_on_interrupt};
+use crate::loop_options::{Interrupt, LoopOptions, stop_on_interrupt, within};
 use session_monitor::{End, SessionMonitor};
 use summary::Summary;
 
@@ -67,10 +67,10 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     options: LoopOptions,
     /// Device that holds the tool, such as falcon:
-    #[arg(long, value_name = "URI", value_parser = loop_options::device)]
+    #[arg(long, value_name = "URI")]
     device: Uri,
     /// Accelerometer, such as serial:/dev/ttyACM0
-    #[arg(long, value_name = "SENSOR", value_parser = sensor)]
+    #[arg(long, value_name = "SENSOR")]
     accel: Sensor,
     /// Name of the material, 1 to 64 bytes [default: the name of the folder]
     #[arg(long, value_parser = name)]
@@ -98,13 +98,13 @@ pub(crate) struct Arguments {
     )]
     forces: Vec<f64>,
     /// Seconds of steady strokes required in each cell of the grid (0.1 to 60)
-    #[arg(long, value_name = "S", default_value_t = 2.0, value_parser = cell_seconds)]
+    #[arg(long, value_name = "S", default_value_t = 2.0, value_parser = within(0.1..=60.0, " s"))]
     cell_seconds: f64,
     /// Taps required in each of four bands of impact speed
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=100))]
     taps: u32,
     /// Stop after this many seconds (0.1 to 86400)
-    #[arg(long, value_name = "S", default_value = "900", value_parser = loop_options::seconds)]
+    #[arg(long, value_name = "S", default_value = "900", value_parser = within(0.1..=86_400.0, " s"))]
     seconds: f64,
     /// Print the result as JSON
     #[arg(long)]
@@ -120,10 +120,6 @@ const AIR_S: f64 = 2.0;
 /// Mass that taps move where no texture says one, kg.
 const MASS_KG: f64 = 0.05;
 
-fn sensor(text: &str) -> Result<Sensor, String> {
-    text.parse::<Sensor>().map_err(|error| error.to_string())
-}
-
 fn name(text: &str) -> Result<String, String> {
     let is_name = (1..=64).contains(&text.len()) && !text.trim().is_empty();
     if is_name && !text.chars().any(char::is_control) {
@@ -137,13 +133,6 @@ fn mass_kg(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(value) if value > 0.0 && value < 10.0 => Ok(value),
         _ => Err("must be above 0 and below 10 kg".into()),
-    }
-}
-
-fn cell_seconds(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(value) if (0.1..=60.0).contains(&value) => Ok(value),
-        _ => Err("must be 0.1 to 60 s".into()),
     }
 }
 

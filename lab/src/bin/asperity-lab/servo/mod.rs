@@ -19,7 +19,7 @@ use asperity_lab::servo_session::{Form, OpenDevice, Recorder, Setup, Surface, ru
 use asperity_runtime::Counters;
 
 use crate::error::Plain;
-use crate::loop_options::{self, LoopOptions, stop_on_interrupt};
+use crate::loop_options::{LoopOptions, stop_on_interrupt, within};
 use live::Live;
 use session_monitor::SessionMonitor;
 use summary::ServoSummary;
@@ -53,7 +53,7 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     options: LoopOptions,
     /// Device to render on, such as sim:
-    #[arg(long, value_name = "URI", value_parser = loop_options::device)]
+    #[arg(long, value_name = "URI")]
     device: Uri,
     /// Reload the file whenever it changes
     #[arg(long, requires = "file")]
@@ -81,7 +81,7 @@ pub(crate) struct Arguments {
     #[arg(long)]
     look: bool,
     /// Stop after this many seconds (0.1 to 86400)
-    #[arg(long, value_name = "S", value_parser = loop_options::seconds)]
+    #[arg(long, value_name = "S", value_parser = within(0.1..=86_400.0, " s"))]
     seconds: Option<f64>,
     /// Print the result as JSON
     #[arg(long)]

@@ -1,10 +1,10 @@
 //! Figures of a user's own copy, from the folder in `ASPERITY_HATT` or from `../shared/hatt/models`
 //! beside the workspace; without one, of materials made up. Only aggregates are printed.
 
-use super::made_up::{Folder, MADE_UP};
+use super::made_up::{Folder, MADE_UP, options};
 use crate::{
     BINS,
-    hatt::{HattOptions, ar, bins::Bins, load, pool::Pool, source},
+    hatt::{ar, bins::Bins, load, pool::Pool, source},
 };
 use asperity::{
     model::{ModelGrid, mixture::Field},
@@ -119,7 +119,7 @@ fn a_real_folder_becomes_a_corpus() {
     let materials = Materials::found();
     let folder = materials.folder();
     let start = Instant::now();
-    let corpus = load(&HattOptions::new(folder)).unwrap();
+    let corpus = load(&options(folder)).unwrap();
     println!(
         "{} materials × 20 in {:?}",
         corpus.materials.len(),
@@ -181,7 +181,7 @@ fn every_material_has_more_instances_than_are_drawn() {
             force_n: m.force_n,
         })
         .collect();
-    let bins = Bins::of(&samples, 32, 1);
+    let bins = Bins::of(&samples);
     let ways: Vec<f64> = sources
         .iter()
         .map(|source| Pool::of(&source.own, &bins).bits())

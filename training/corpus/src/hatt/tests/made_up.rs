@@ -1,6 +1,7 @@
 //! A folder of made-up materials. Their names are HaTT's, so that they have captions; nothing else
 //! is.
 
+use crate::hatt::HattOptions;
 use asperity::signal::{lsf, spectrum::squared_magnitude};
 use std::{
     f64::consts::PI,
@@ -9,6 +10,16 @@ use std::{
     path::{Path, PathBuf},
     sync::atomic::{AtomicU32, Ordering},
 };
+
+/// The paper's augmentation of a folder.
+pub(super) fn options(folder: impl Into<PathBuf>) -> HattOptions {
+    HattOptions {
+        folder: folder.into(),
+        instances: 20,
+        first_instance: 0,
+        seed: 1,
+    }
+}
 
 /// A texture whose level is a power law, on measured places of its own.
 pub(super) struct MadeUp {

@@ -26,7 +26,6 @@ pub(crate) enum Command {
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   asperity-train fit -o model
-  asperity-train fit -o model --resume
   asperity-train fit --config paper --hatt ~/HaTT/Models -o hatt-model
   asperity-train fit --config mine.toml --text-encoder clip:./clip -o clip-model")]
 pub(crate) struct Fit {
@@ -64,15 +63,6 @@ pub(crate) struct Fit {
     /// Threads; as many as there are cores if left out. The model does not depend on it
     #[arg(long)]
     pub(crate) threads: Option<NonZeroUsize>,
-    /// Go on from where an interrupted run with the same options stopped
-    #[arg(long)]
-    pub(crate) resume: bool,
-    /// Keep the state of the finished run, to --resume it with another text stage
-    #[arg(long)]
-    pub(crate) keep_state: bool,
-    /// Epochs between two savings of the state, in `DIR.training`
-    #[arg(long, default_value = "10", value_name = "EPOCHS")]
-    pub(crate) checkpoint: NonZeroUsize,
     /// No progress bar
     #[arg(short, long)]
     pub(crate) quiet: bool,

@@ -8,8 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
-/// The first interrupt lets an epoch end and its state be saved; the second ends the
-/// process.
+/// The first interrupt lets an epoch end; the second ends the process.
 ///
 /// # Errors
 /// [`NoHandler`] where the system allows no further thread or file.
@@ -31,6 +30,21 @@ pub(crate) fn print(text: &str) -> Result<(), OutputError> {
     Console::new(false).text(text)
 }
 
+/// A bar of so many steps on stderr, unless that is no terminal.
+pub(crate) fn bar(quiet: bool, steps: usize) -> ProgressBar {
+    let target = if quiet {
+        ProgressDrawTarget::hidden()
+    } else {
+        ProgressDrawTarget::stderr()
+    };
+    let bar = ProgressBar::with_draw_target(Some(steps as u64), target);
+    let template = "{prefix} [{bar:24}] {pos}/{len} {eta}  {msg}";
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+    bar
+}
+
 /// A bar for each stage.
 pub(crate) struct Bar {
     bar: ProgressBar,
@@ -39,19 +53,8 @@ pub(crate) struct Bar {
 
 impl Bar {
     pub(crate) fn new(quiet: bool, epochs: usize) -> Self {
-        let target = if quiet {
-            ProgressDrawTarget::hidden()
-        } else {
-            // Hidden by itself where stderr is no terminal.
-            ProgressDrawTarget::stderr()
-        };
-        let bar = ProgressBar::with_draw_target(Some(epochs as u64), target);
-        let template = "{prefix} [{bar:24}] {pos}/{len} {eta}  {msg}";
-        if let Ok(style) = ProgressStyle::with_template(template) {
-            bar.set_style(style);
-        }
         Self {
-            bar: bar.with_prefix("training"),
+            bar: bar(quiet, epochs).with_prefix("training"),
             text: false,
         }
     }

@@ -1,18 +1,21 @@
 //! `asperity-train evaluate`.
 
 use crate::{
-    Failure, boxed,
     console::{self, is_interrupted},
     setup,
 };
-use asperity::learned::{inference::{Backend, BackendName, not_installed}, text::TextEncoderChoice};
+use asperity::learned::{
+    inference::{Backend, BackendName, not_installed},
+    text::TextEncoderChoice,
+};
+use asperity_io::diagnostic::Failure;
 use asperity_train::{
     Config,
     evaluate::{CorpusSource, Options, Part, Watch, evaluate},
     on_threads,
 };
 use clap::Args;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 use std::{num::NonZeroUsize, path::PathBuf};
 
 #[derive(Debug, Args)]
@@ -30,9 +33,9 @@ pub(crate) struct Evaluate {
     /// The corpus it was trained on: `reference`, `reference:DIR` or `hatt:DIR`
     #[arg(long, default_value = "reference", value_name = "CORPUS")]
     corpus: CorpusSource,
-    /// 1 clustering, 2 retrieval, 3 held-out materials, 4 words, 5 midpoints, 6 pictures, 7 names,
+    /// 1 clustering, 2 retrieval, 3 held-out materials, 4 words, 5 midpoints, 7 names,
     /// 8 completion
-    #[arg(long, value_delimiter = ',', default_value = "1,2,3,4,5,6,7,8")]
+    #[arg(long, value_delimiter = ',', default_value = "1,2,3,4,5,7,8")]
     parts: Vec<Part>,
     /// Recipe of the folds instead of the model's own: `paper`, `reference`, `hatt`, or a TOML
     /// file
@@ -70,47 +73,31 @@ pub(crate) fn run(args: &Evaluate) -> Result<(), Failure> {
         model: &args.model,
         corpus: args.corpus.clone(),
         parts: args.parts.iter().copied().collect(),
-        fold_config: fold_config.map_err(boxed)?,
+        fold_config: fold_config?,
         folds: args.folds,
         fold_epochs: args.fold_epochs,
         report: &args.output,
     };
-    console::listen().map_err(boxed)?;
-    let backend = Backend::open(args.backend).map_err(|error| boxed(not_installed(error)))?;
+    console::listen()?;
+    let backend = Backend::open(args.backend).map_err(not_installed)?;
     let encoder = setup::text_encoder(&args.text_encoder, &backend)?;
     let threads = setup::threads(args.threads);
-    let mut bar = Bar::new(args.quiet);
+    let mut bar = Bar(console::bar(args.quiet, 1));
     let report = on_threads(threads, || {
         evaluate(&options, encoder.as_ref(), &backend, &mut bar)
     });
     bar.0.finish_and_clear();
-    let report = report.map_err(boxed)?.map_err(boxed)?;
+    let report = report??;
     let text = if args.json {
-        report.json().map_err(boxed)?
+        report.json()?
     } else {
         format!("{}: report.md, report.json\n", args.output.display())
     };
-    console::print(&text).map_err(boxed)
+    Ok(console::print(&text)?)
 }
 
 /// A bar for each stage.
 struct Bar(ProgressBar);
-
-impl Bar {
-    fn new(quiet: bool) -> Self {
-        let target = if quiet {
-            ProgressDrawTarget::hidden()
-        } else {
-            // Hidden by itself where stderr is no terminal.
-            ProgressDrawTarget::stderr()
-        };
-        let bar = ProgressBar::with_draw_target(Some(1), target);
-        if let Ok(style) = ProgressStyle::with_template("{prefix} [{bar:24}] {pos}/{len} {eta}") {
-            bar.set_style(style);
-        }
-        Self(bar)
-    }
-}
 
 impl Watch for Bar {
     fn begin(&mut self, what: &str, steps: usize) {

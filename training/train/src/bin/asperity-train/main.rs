@@ -6,7 +6,7 @@ mod console;
 mod evaluate;
 mod setup;
 
-use asperity_io::diagnostic::{Diagnostic, report};
+use asperity_io::diagnostic::report;
 use clap::Parser as _;
 use std::process::ExitCode;
 
@@ -24,12 +24,4 @@ fn main() -> ExitCode {
             }
         }
     }
-}
-
-/// Why a command failed.
-type Failure = Box<dyn Diagnostic + Send>;
-
-/// For `map_err`.
-fn boxed(error: impl Diagnostic + Send + 'static) -> Failure {
-    Box::new(error)
 }

@@ -1,7 +1,11 @@
 //! Setup common to both long commands.
 
-use crate::{Failure, boxed};
-use asperity::learned::{embedded, inference::Backend, text::{TextEncoder, TextEncoderChoice, clip::Clip}};
+use asperity::learned::{
+    embedded,
+    inference::Backend,
+    text::{TextEncoder, TextEncoderChoice, clip::Clip},
+};
+use asperity_io::diagnostic::Failure;
 use std::{num::NonZeroUsize, thread};
 
 /// The chosen text encoder on a back end.
@@ -10,8 +14,8 @@ pub(crate) fn text_encoder(
     backend: &Backend,
 ) -> Result<Box<dyn TextEncoder>, Failure> {
     Ok(match choice {
-        TextEncoderChoice::MiniLm => Box::new(embedded::text_encoder(backend).map_err(boxed)?),
-        TextEncoderChoice::Clip(folder) => Box::new(Clip::open(folder, backend).map_err(boxed)?),
+        TextEncoderChoice::MiniLm => Box::new(embedded::text_encoder(backend)?),
+        TextEncoderChoice::Clip(folder) => Box::new(Clip::open(folder, backend)?),
     })
 }
 

@@ -1,14 +1,11 @@
 //! Posterior collapse: information about the inputs in a latent that clusters well.
 
 use super::indices::sums_of_squares;
-use crate::eigen;
+use crate::{eigen, metrics::active_units};
 use asperity::learned::{Latent, description::LATENT};
 use asperity_corpus::Instance;
 use serde::{Deserialize, Serialize};
 
-/// A unit is active if its posterior mean varies more than this over the instances
-/// (Burda et al., "Importance Weighted Autoencoders", 2016).
-const ACTIVE_VARIANCE: f64 = 0.01;
 /// Deviations of inputs below these count as these: rad, dB, m/s².
 const LEAST_DEVIATION: [f64; 3] = [0.01, 0.1, 0.05];
 
@@ -46,8 +43,6 @@ impl Collapse {
         };
         let [lsf, level, taps] = LEAST_DEVIATION;
         let covariance = covariance(latents);
-        let active = (0..LATENT).filter(|&unit| covariance[unit * (LATENT + 1)] > ACTIVE_VARIANCE);
-        let active_units = active.count();
         let eigenvalues = eigen::symmetric(covariance, LATENT);
         let values: Vec<f64> = eigenvalues.iter().map(|pair| pair.0.max(0.0)).collect();
         let total: f64 = values.iter().sum();
@@ -60,7 +55,7 @@ impl Collapse {
             lsf_explained: explained(lsf, |i| i.lsf_rad.as_flattened()),
             level_explained: explained(level, |i| &i.level_db),
             taps_explained: explained(taps, |i| i.taps_m_s2.as_flattened()),
-            active_units,
+            active_units: active_units(latents),
             effective_rank: if varies { libm::exp(entropy) } else { 0.0 },
             participation: if varies { total * total / square } else { 0.0 },
             between_share: if varies {

@@ -1,7 +1,7 @@
 //! k-means by Lloyd's iterations: one deterministic farthest-point start, then restarts
 //! seeded by k-means++ (Arthur and Vassilvitskii, 2007); the smallest inertia counts.
 
-use crate::evaluate::draws::Draws;
+use crate::rng::Stream;
 use asperity::learned::Latent;
 use rayon::prelude::*;
 
@@ -19,7 +19,7 @@ pub(super) fn cluster(points: &[Latent], k: usize, restarts: usize, seed: u64) -
             plus_plus(
                 points,
                 k,
-                &mut Draws::new(seed.wrapping_add(restart as u64)),
+                &mut Stream::seeded(seed.wrapping_add(restart as u64)),
             )
         };
         let (inertia, labels) = lloyd(points, start);
@@ -52,14 +52,14 @@ fn farthest_points(points: &[Latent], k: usize) -> Vec<Latent> {
     chosen
 }
 
-fn plus_plus(points: &[Latent], k: usize, draws: &mut Draws) -> Vec<Latent> {
+fn plus_plus(points: &[Latent], k: usize, draws: &mut Stream) -> Vec<Latent> {
     let first = draws.below(points.len());
     let mut nearest = vec![f32::INFINITY; points.len()];
     let mut chosen = vec![points[first]];
     approach(points, &points[first], &mut nearest);
     while chosen.len() < k {
         let total: f64 = nearest.iter().map(|&x| f64::from(x)).sum();
-        let mut left = draws.uniform() * total;
+        let mut left = draws.uniform_f64() * total;
         let next = nearest.iter().position(|&x| {
             left -= f64::from(x);
             left < 0.0
@@ -141,12 +141,12 @@ mod tests {
 
     #[test]
     fn separate_clouds_are_found_whatever_the_start() {
-        let mut draws = Draws::new(3);
+        let mut draws = Stream::seeded(3);
         let mut points: Vec<Latent> = Vec::new();
         for cloud in 0..6 {
             for _ in 0..10 {
                 points.push(std::array::from_fn(|axis| {
-                    5.0 * f32::from(u8::from(axis == cloud)) + 0.1 * draws.uniform() as f32
+                    5.0 * f32::from(u8::from(axis == cloud)) + 0.1 * draws.uniform_f64() as f32
                 }));
             }
         }

@@ -6,7 +6,7 @@ mod collapse;
 mod indices;
 mod kmeans;
 
-pub use collapse::Collapse;
+pub(super) use collapse::Collapse;
 
 use super::{EvaluateError, Watch, data, subject::Subject, watch::pause};
 use crate::trained::Seen;
@@ -19,7 +19,7 @@ const RESTARTS: usize = 4;
 
 /// The paper's silhouette, Calinski–Harabasz, Davies–Bouldin, ARI and NMI, on 2,000
 /// latents of 100 materials.
-pub const PAPER: Indices = Indices {
+pub(super) const PAPER: Indices = Indices {
     silhouette: 0.96,
     calinski_harabasz: 2.3e4,
     davies_bouldin: 0.14,

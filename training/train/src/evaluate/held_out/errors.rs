@@ -5,10 +5,10 @@ use crate::evaluate::signature::{Objective, Signature};
 use serde::{Deserialize, Serialize};
 
 /// Number of [`NAMES`].
-pub const METRICS: usize = 11;
+pub(super) const METRICS: usize = 11;
 
 /// Metrics of a prediction with units: absolute values, less is better.
-pub const NAMES: [&str; METRICS] = [
+pub(super) const NAMES: [&str; METRICS] = [
     "spectrum, level free, dB",
     "spectrum with level, dB",
     "level, dB",

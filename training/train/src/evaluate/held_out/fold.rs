@@ -24,7 +24,7 @@ use serde::{Deserialize, Serialize};
 
 /// Who says what a held-out caption feels like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub enum Predictor {
+pub(crate) enum Predictor {
     /// The model, from the caption.
     Text,
     /// The mean texture of the training materials, whatever the caption.
@@ -41,7 +41,7 @@ pub enum Predictor {
 
 impl Predictor {
     /// All of them, in the order of every array.
-    pub const ALL: [Self; PREDICTORS] = [
+    pub(crate) const ALL: [Self; PREDICTORS] = [
         Self::Text,
         Self::Mean,
         Self::Nearest,
@@ -233,7 +233,7 @@ impl Asked<'_> {
 
     fn nearest(&self, vector: &[f32]) -> (usize, f64) {
         let mut best = (0, f32::NEG_INFINITY);
-        for (index, material) in self.trained.materials().iter().enumerate() {
+        for (index, material) in self.trained.materials.iter().enumerate() {
             let similarity = dot(vector, &material.caption);
             if similarity > best.1 {
                 best = (index, similarity);
@@ -275,7 +275,7 @@ impl Asked<'_> {
 }
 
 fn anchors(trained: &Trained, corpus: &Corpus) -> Vec<Anchor> {
-    let anchors = trained.materials().iter().map(|located| {
+    let anchors = trained.materials.iter().map(|located| {
         let material = &corpus.materials[located.material];
         Anchor {
             name: material.name.clone(),

@@ -10,11 +10,10 @@ mod lexicon;
 mod split;
 mod summary;
 
-pub use completion::{Completed, Completion, Direction};
-pub use errors::{METRICS, NAMES, Trial};
-pub use fold::{Fold, Material, Predictor};
+pub(super) use completion::{Completed, Completion};
+pub(super) use fold::Predictor;
 pub(super) use lexicon::SAME;
-pub use summary::{Folds, Metric, Ranks};
+pub(super) use summary::Folds;
 
 use super::{EvaluateError, Watch, cache, cache::Cache, signature::Signature};
 use crate::{captions::Captions, certainty::certainty_curve, config::Config};
@@ -136,7 +135,7 @@ mod tests {
 
     #[test]
     fn a_shortened_recipe_raises_beta_in_proportion() {
-        let config = Config::reference().unwrap();
+        let config = Config::find("reference").unwrap();
         let short = shortened(config.clone(), Some(config.optimiser.epochs / 2));
         assert_eq!(short.optimiser.epochs, config.optimiser.epochs / 2);
         assert_eq!(short.loss.kl_to_epoch, config.loss.kl_to_epoch / 2);

@@ -1,12 +1,12 @@
 //! Which materials a fold leaves out.
 
-use crate::evaluate::draws::Draws;
+use crate::rng::Stream;
 use std::collections::BTreeMap;
 
 /// Positions of every fold's held-out materials, each ascending: every family is dealt
 /// over the folds as evenly as it can be.
 pub(super) fn stratified(families: &[&str], folds: usize, seed: u64) -> Vec<Vec<usize>> {
-    let mut draws = Draws::new(seed);
+    let mut draws = Stream::seeded(seed);
     let mut parts = vec![Vec::new(); folds];
     let mut next = 0;
     for members in by_family(families).values_mut() {
@@ -21,7 +21,7 @@ pub(super) fn stratified(families: &[&str], folds: usize, seed: u64) -> Vec<Vec<
 
 /// The same, but whole families: largest first, each to the smallest fold so far.
 pub(super) fn whole_families(families: &[&str], folds: usize, seed: u64) -> Vec<Vec<usize>> {
-    let mut draws = Draws::new(seed);
+    let mut draws = Stream::seeded(seed);
     let mut groups: Vec<Vec<usize>> = by_family(families).into_values().collect();
     draws.shuffle(&mut groups);
     groups.sort_by_key(|members| std::cmp::Reverse(members.len()));

@@ -2,8 +2,8 @@
 
 mod prompts;
 
-pub use prompts::{Attribute, Change, Direction, Kind};
-pub(super) use prompts::{Probes, sources};
+use prompts::Change;
+pub(super) use prompts::{Attribute, Direction, Kind, Probes, sources};
 
 use super::{
     EvaluateError, Watch,

@@ -1,7 +1,7 @@
-//! Sections 5 and 6.
+//! Section 5.
 
 use super::{percent, row, table};
-use crate::evaluate::{map::Map, midpoints::Midpoints};
+use crate::evaluate::midpoints::Midpoints;
 
 pub(super) fn section(part: &Midpoints) -> String {
     let ends: Vec<String> = part
@@ -53,18 +53,4 @@ pub(super) fn section(part: &Midpoints) -> String {
         percent(part.between_on_line)
     );
     text
-}
-
-pub(super) fn map(part: &Map) -> String {
-    format!(
-        "## 6. How do the materials lie?\n\n\
-         Anchors (mean latents of the materials) along the first two principal components, which \
-         hold {:.0} % and {:.0} % of their variance, and by exact t-SNE (perplexity 15, \
-         started at the components: no randomness).\n\n\
-         ![Anchors by family](anchors.png)\n\n\
-         **Answer.** The nearest neighbour of {:.0} % of the anchors is of their own family.\n",
-        100.0 * part.explained[0],
-        100.0 * part.explained[1],
-        100.0 * part.family_neighbours
-    )
 }

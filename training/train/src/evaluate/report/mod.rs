@@ -15,7 +15,6 @@ use super::{
     Bench, EvaluateError,
     clustering::Clustering,
     held_out::{Completion, HeldOut},
-    map::{self, Map},
     midpoints::Midpoints,
     names::Names,
     probes::Probing,
@@ -67,8 +66,6 @@ pub struct Report {
     pub probes: Option<Probing>,
     /// Part 5.
     pub midpoints: Option<Midpoints>,
-    /// Part 6.
-    pub map: Option<Map>,
     /// Part 7.
     pub names: Option<Names>,
     /// Part 8.
@@ -108,7 +105,6 @@ impl Report {
             held_out: None,
             probes: None,
             midpoints: None,
-            map: None,
             names: None,
             completion: None,
         }
@@ -137,9 +133,6 @@ impl Report {
         if let Some(part) = &self.probes {
             files.push(("probes.png".into(), charts::probes(part)?));
         }
-        if let Some(part) = &self.map {
-            files.push(("anchors.png".into(), map::draw(part)?));
-        }
         let files: Vec<(String, &[u8])> = files
             .iter()
             .map(|(name, bytes)| (name.clone(), bytes.as_slice()))
@@ -163,7 +156,6 @@ impl Report {
             self.held_out.as_ref().map(held_out::section),
             self.probes.as_ref().map(probes::section),
             self.midpoints.as_ref().map(midpoints::section),
-            self.map.as_ref().map(midpoints::map),
             self.names.as_ref().map(names::section),
             self.completion.as_ref().map(completion::section),
         ];
@@ -219,7 +211,7 @@ fn encode(file: &str, value: &impl Serialize) -> Result<String, EvaluateError> {
 }
 
 /// `12.3 % (10.1–14.9)`.
-fn percent(share: super::Share) -> String {
+fn percent(share: super::statistics::Share) -> String {
     let scaled = |x: f64| 100.0 * x;
     format!(
         "{:.1} % ({:.1}–{:.1})",

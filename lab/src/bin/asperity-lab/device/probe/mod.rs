@@ -10,15 +10,17 @@ use asperity_host::device::falcon::on_usb;
 use asperity_host::device::touch::{Face, identify};
 use asperity_host::device::usb::scan::scan;
 use asperity_host::device::usb::{Ids, Kind, UsbError};
-use asperity_host::device::{Device as _, DeviceError, Scheme, Uri};
-use asperity_io::diagnostic::{Failures, one};
+use asperity_host::device::{Device, DeviceError, Scheme, Uri};
+use asperity_io::diagnostic::{Diagnostic as _, Failures, one};
 use asperity_io::output::Outputs;
 use asperity_io::shown::counted;
+use asperity_lab::servo_session::open;
 use serde_json::{Value, json};
 
 use super::failure;
 use super::inventory::{Inventory, libraries};
 use crate::error::{Plain, all};
+use crate::loop_options::within;
 use report::{Positions, Private, archive};
 
 /// Check whether a device works
@@ -42,7 +44,7 @@ pub(crate) struct Arguments {
     #[arg(value_name = "URI")]
     uri: Option<String>,
     /// Duration of the test, s (0.1 to 60) [default: 2, or 60 with --output]
-    #[arg(long, value_parser = seconds)]
+    #[arg(long, value_parser = within(0.1..=60.0, " s"))]
     seconds: Option<f64>,
     /// Write what somebody else needs to help: versions, ids, permissions, rates, settings of this
     /// machine, and every position, but no serial numbers
@@ -56,14 +58,6 @@ pub(crate) struct Arguments {
     /// Print JSON
     #[arg(long)]
     json: bool,
-}
-
-fn seconds(text: &str) -> Result<f64, String> {
-    let value = text
-        .parse()
-        .ok()
-        .filter(|value| (0.1..=60.0).contains(value));
-    value.ok_or_else(|| "must be 0.1 to 60 s".into())
 }
 
 /// Gives whether every device works.
@@ -200,25 +194,30 @@ type Problem = (String, String);
 
 fn probe(uri: &Uri, seconds: f64, positions: &mut Positions) -> Result<Probed, Problem> {
     match uri.scheme {
-        Scheme::Falcon => falcon(uri, seconds, positions),
         Scheme::Touch => touch(uri),
-        _ => any(uri, seconds, positions),
+        _ => driven(uri, seconds, positions),
     }
 }
 
-/// A device that is not on USB: it is read a thousand times a second and told to give no force.
-fn any(uri: &Uri, seconds: f64, positions: &mut Positions) -> Result<Probed, Problem> {
-    use asperity_io::diagnostic::Diagnostic as _;
+/// Reads a device a thousand times a second and commands no force. A Falcon counts its transfers as well.
+fn driven(uri: &Uri, seconds: f64, positions: &mut Positions) -> Result<Probed, Problem> {
     const RATE_HZ: u32 = 1000;
-    let opened = asperity_lab::servo_session::open(uri, RATE_HZ);
-    let mut device = opened
-        .map_err(|error| (error.to_string(), error.remedy()))?
-        .device;
+    let (mut falcon, mut other) = (None, None);
+    let device: &mut dyn Device = if uri.scheme == Scheme::Falcon {
+        let opened = on_usb::open(uri).map_err(|error| (error.to_string(), error.remedy()))?;
+        falcon.insert(opened)
+    } else {
+        let opened = open(uri, RATE_HZ).map_err(|error| (error.to_string(), error.remedy()))?;
+        &mut **other.insert(opened.device)
+    };
     let begun = Instant::now();
-    let (mut readings, mut fresh, mut faults) = (0_u64, 0_u64, 0_u64);
+    let (mut readings, mut fresh, mut faults, mut commands) = (0_u64, 0_u64, 0_u64, 0_u64);
     let mut last = Err(DeviceError::TimedOut);
     let mut buttons = 0;
     while begun.elapsed().as_secs_f64() < seconds {
+        // A command that fails shows as a fault in the next reading.
+        commands += u64::from(device.write([0.0; 3]).is_ok());
+        std::thread::sleep(Duration::from_micros(1_000_000 / u64::from(RATE_HZ)));
         readings += 1;
         let read = device.read();
         positions.take(&read);
@@ -226,22 +225,19 @@ fn any(uri: &Uri, seconds: f64, positions: &mut Positions) -> Result<Probed, Pro
             Ok(reading) => {
                 fresh += u64::from(reading.fresh);
                 buttons |= reading.buttons;
-                last = Ok(reading.position_m);
             }
-            Err(fault) => {
-                faults += 1;
-                last = Err(fault);
-            }
+            Err(_) => faults += 1,
         }
-        // A fault shows in the next reading.
-        let _ = device.write([0.0; 3]);
-        std::thread::sleep(Duration::from_micros(1_000_000 / u64::from(RATE_HZ)));
+        last = read.map(|reading| reading.position_m);
     }
-    let rate_hz = fresh as f64 / begun.elapsed().as_secs_f64();
-    let description = device.description();
+    let taken_s = begun.elapsed().as_secs_f64();
+    let description = device.description().clone();
+    let link = falcon.map(|falcon| (falcon.counts(), falcon.homed().count_ones()));
+    let answers = link.map_or(fresh, |(counts, _)| counts.received);
+    let rate_hz = answers as f64 / taken_s;
     let serial = description.serial.as_deref().unwrap_or("no serial number");
-    let position = match &last {
-        Ok(position_m) => {
+    let position = match (&last, link) {
+        (Ok(position_m), _) => {
             let [x, y, z] = position_m.map(|metres| metres * 1e3);
             let pressed: Vec<String> = (0..u32::BITS)
                 .filter(|bit| (buttons >> bit) & 1 == 1)
@@ -254,7 +250,10 @@ fn any(uri: &Uri, seconds: f64, positions: &mut Positions) -> Result<Probed, Pro
             };
             format!("position {x:.2}, {y:.2}, {z:.2} mm; {pressed}")
         }
-        Err(fault) => format!("no position: {fault}"),
+        (Err(DeviceError::NotCalibrated), Some((_, homed))) => format!(
+            "not homed ({homed} of 3 encoders): pull the grip out as far as it goes, then push it in"
+        ),
+        (Err(fault), _) => format!("no position: {fault}"),
     };
     let mut text = format!(
         "{}  {serial}\n  {}, {fresh} of them new ({rate_hz:.0} Hz); {}; only zero force was \
@@ -265,17 +264,15 @@ fn any(uri: &Uri, seconds: f64, positions: &mut Positions) -> Result<Probed, Pro
         description.peak_force_n,
         description.continuous_force_n,
     );
-    for sentence in &description.unconfirmed {
-        text += &format!("  unconfirmed: {sentence}\n");
-    }
-    let value = json!({
+    let mut value = json!({
         "uri": uri.to_string(),
         "name": description.name,
         "serial": description.serial,
-        "works": fresh > 0,
+        "works": answers > 0,
         "readings": readings,
         "fresh": fresh,
         "faults": faults,
+        "commands": commands,
         "rate_hz": rate_hz,
         "position_m": last.ok(),
         "buttons": buttons,
@@ -283,8 +280,40 @@ fn any(uri: &Uri, seconds: f64, positions: &mut Positions) -> Result<Probed, Pro
         "continuous_force_n": description.continuous_force_n,
         "unconfirmed": description.unconfirmed,
     });
-    if fresh > 0 {
+    if let Some((counts, homed)) = link {
+        text += &format!(
+            "  the firmware runs; {} to {}; transfers: {} stalled, {} short, {} timed out, {} failed \
+             otherwise; {} outside any frame\n",
+            counted(answers, "answer", "answers"),
+            counted(commands, "command", "commands"),
+            counts.stalled,
+            counts.short,
+            counts.timed_out,
+            counts.failed,
+            counted(counts.skipped_bytes, "byte", "bytes"),
+        );
+        for (key, count) in [
+            ("answers", answers),
+            ("homed", u64::from(homed)),
+            ("stalls", counts.stalled),
+            ("short", counts.short),
+            ("timed_out", counts.timed_out),
+            ("failed", counts.failed),
+            ("skipped_bytes", counts.skipped_bytes),
+        ] {
+            value[key] = count.into();
+        }
+    }
+    for sentence in &description.unconfirmed {
+        text += &format!("  unconfirmed: {sentence}\n");
+    }
+    if answers > 0 {
         Ok(Probed { text, value })
+    } else if link.is_some() {
+        Err((
+            "the Falcon answers no command".into(),
+            "switch its power off and on, then try again".into(),
+        ))
     } else {
         let why = last.err().unwrap_or(DeviceError::TimedOut);
         Err((
@@ -312,79 +341,4 @@ fn touch(uri: &Uri) -> Result<Probed, Problem> {
         text: format!("{}\n  {face}\n  {limits}\n  {next}\n", found.place()),
         value,
     })
-}
-
-fn falcon(uri: &Uri, seconds: f64, positions: &mut Positions) -> Result<Probed, Problem> {
-    let mut falcon = on_usb::open(uri).map_err(|error| (error.to_string(), error.remedy()))?;
-    let begun = Instant::now();
-    let (mut commands, mut last) = (0_u32, Err(DeviceError::TimedOut));
-    while begun.elapsed().as_secs_f64() < seconds {
-        if falcon.write([0.0; 3]).is_ok() {
-            commands += 1;
-        }
-        std::thread::sleep(Duration::from_millis(1));
-        let read = falcon.read();
-        positions.take(&read);
-        match read {
-            Ok(reading) if !reading.fresh => {}
-            other => last = other,
-        }
-    }
-    let taken_s = begun.elapsed().as_secs_f64();
-    let counts = falcon.counts();
-    let rate_hz = counts.received as f64 / taken_s;
-    let description = falcon.description();
-    let position = match &last {
-        Ok(reading) => {
-            let [x, y, z] = reading.position_m.map(|metres| metres * 1e3);
-            format!("position {x:.2}, {y:.2}, {z:.2} mm")
-        }
-        Err(DeviceError::NotCalibrated) => format!(
-            "not homed ({} of 3 encoders): pull the grip out as far as it goes, then push it in",
-            falcon.homed().count_ones()
-        ),
-        Err(fault) => format!("no position: {fault}"),
-    };
-    let serial = description.serial.as_deref().unwrap_or("no serial number");
-    let mut text = format!(
-        "{}  {serial}\n  the firmware runs; {} of zero force, {} ({rate_hz:.0} Hz)\n  {position}\n  \
-         transfers: {} stalled, {} short, {} timed out, {} failed otherwise; {} outside any frame\n",
-        description.name,
-        counted(commands, "command", "commands"),
-        counted(counts.received, "answer", "answers"),
-        counts.stalled,
-        counts.short,
-        counts.timed_out,
-        counts.failed,
-        counted(counts.skipped_bytes, "byte", "bytes"),
-    );
-    for sentence in &description.unconfirmed {
-        text += &format!("  unconfirmed: {sentence}\n");
-    }
-    let answered = counts.received > 0;
-    let value = json!({
-        "uri": uri.to_string(),
-        "name": description.name,
-        "serial": description.serial,
-        "works": answered,
-        "commands": commands,
-        "answers": counts.received,
-        "rate_hz": rate_hz,
-        "homed": falcon.homed().count_ones(),
-        "position_m": last.ok().map(|reading| reading.position_m),
-        "stalls": counts.stalled,
-        "short": counts.short,
-        "timed_out": counts.timed_out,
-        "failed": counts.failed,
-        "skipped_bytes": counts.skipped_bytes,
-        "unconfirmed": description.unconfirmed,
-    });
-    if answered {
-        Ok(Probed { text, value })
-    } else {
-        Err((
-            "the Falcon answers no command".into(),
-            "switch its power off and on, then try again".into(),
-        ))
-    }
 }

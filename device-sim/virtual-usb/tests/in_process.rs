@@ -6,20 +6,19 @@ use std::time::{Duration, Instant};
 use asperity_host::device::falcon::ftdi::{ENDPOINT_IN, ENDPOINT_OUT, REQUEST_TYPE};
 use asperity_host::device::falcon::transport::{Direction, TransferError, Transport};
 use asperity_host::device::falcon::{OpenError, Opened, Opener};
-
-use super::{Device, Port, Reply, Setup, Socket};
+use asperity_virtual_usb::{Device, Port, Reply, Setup, Socket};
 
 /// Time between two questions whether there is something.
 const STEP: Duration = Duration::from_micros(500);
 
 /// A handle of a device; it is void once the device has been unplugged.
-pub struct InProcess<D> {
+pub(crate) struct InProcess<D> {
     socket: Socket<D>,
     plugged: u64,
 }
 
 /// Opens a device whenever it is plugged in.
-pub struct InProcessOpener<D>(pub Socket<D>);
+pub(crate) struct InProcessOpener<D>(pub(crate) Socket<D>);
 
 impl<D: Device + 'static> Opener for InProcessOpener<D> {
     fn open(&mut self) -> Result<Opened, OpenError> {
@@ -39,8 +38,7 @@ impl<D: Device + 'static> Opener for InProcessOpener<D> {
 
 impl<D: Device> InProcess<D> {
     /// Opens a device that is plugged in.
-    #[must_use]
-    pub fn open(socket: &Socket<D>) -> Option<Self> {
+    pub(crate) fn open(socket: &Socket<D>) -> Option<Self> {
         let port = socket.port();
         let plugged = port.is_plugged_in().then(|| port.times_plugged_in())?;
         drop(port);

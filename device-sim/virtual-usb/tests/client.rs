@@ -4,26 +4,26 @@ use std::io::{self, Read as _, Write as _};
 use std::net::{TcpStream, ToSocketAddrs};
 use std::time::Duration;
 
-use super::wire::{
+use asperity_virtual_usb::Setup;
+use asperity_virtual_usb::usbip::wire::{
     GRANTED, HEADER, Header, MAX_TRANSFER, RECORD, REPLY_IMPORT, REPLY_LIST, REQUEST_IMPORT,
     REQUEST_LIST, SUBMIT, SUBMITTED, UNLINK, UNLINKED, bus_id, operation, take,
 };
-use crate::Setup;
 
 /// A device of a list.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Listed {
+pub(crate) struct Listed {
     /// Its bus id.
-    pub bus_id: String,
+    pub(crate) bus_id: String,
     /// Vendor and product id.
-    pub ids: (u16, u16),
+    pub(crate) ids: (u16, u16),
     /// Class, subclass, protocol of each interface.
-    pub interfaces: Vec<[u8; 3]>,
+    pub(crate) interfaces: Vec<[u8; 3]>,
 }
 
 /// Messages from the server once a device is imported.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Event {
+pub(crate) enum Event {
     /// A transfer is done.
     Done {
         /// Its number.
@@ -45,7 +45,7 @@ pub enum Event {
 }
 
 /// A connection.
-pub struct Client {
+pub(crate) struct Client {
     stream: TcpStream,
     sequence: u32,
     /// Numbers of transfers from the device: their replies carry bytes.
@@ -58,10 +58,7 @@ fn wrong(what: &str) -> io::Error {
 
 impl Client {
     /// Connects.
-    ///
-    /// # Errors
-    /// What the system says.
-    pub fn connect(address: impl ToSocketAddrs) -> io::Result<Self> {
+    pub(crate) fn connect(address: impl ToSocketAddrs) -> io::Result<Self> {
         let stream = TcpStream::connect(address)?;
         stream.set_nodelay(true)?;
         stream.set_read_timeout(Some(Duration::from_secs(5)))?;
@@ -73,10 +70,7 @@ impl Client {
     }
 
     /// Asks for the list of devices.
-    ///
-    /// # Errors
-    /// What the system says, or a reply that is none.
-    pub fn list(&mut self) -> io::Result<Vec<Listed>> {
+    pub(crate) fn list(&mut self) -> io::Result<Vec<Listed>> {
         self.stream.write_all(&operation(REQUEST_LIST, GRANTED))?;
         if take::<8>(&mut self.stream)?[..] != operation(REPLY_LIST, GRANTED) {
             return Err(wrong("no list"));
@@ -101,10 +95,7 @@ impl Client {
     }
 
     /// Asks for a device; gives the status, 0 if it is granted.
-    ///
-    /// # Errors
-    /// What the system says, or a reply that is none.
-    pub fn import(&mut self, id: &str) -> io::Result<u32> {
+    pub(crate) fn import(&mut self, id: &str) -> io::Result<u32> {
         let mut request = operation(REQUEST_IMPORT, GRANTED);
         request.extend(bus_id(id));
         self.stream.write_all(&request)?;
@@ -132,10 +123,7 @@ impl Client {
     }
 
     /// Submits a control transfer; gives its number.
-    ///
-    /// # Errors
-    /// What the system says.
-    pub fn control(&mut self, setup: Setup, data: &[u8]) -> io::Result<u32> {
+    pub(crate) fn control(&mut self, setup: Setup, data: &[u8]) -> io::Result<u32> {
         let header = Header {
             command: SUBMIT,
             from_device: setup.request_type & 0x80 != 0,
@@ -147,10 +135,7 @@ impl Client {
     }
 
     /// Submits a transfer to an endpoint; gives its number.
-    ///
-    /// # Errors
-    /// What the system says.
-    pub fn write(&mut self, endpoint: u8, data: &[u8]) -> io::Result<u32> {
+    pub(crate) fn write(&mut self, endpoint: u8, data: &[u8]) -> io::Result<u32> {
         let header = Header {
             command: SUBMIT,
             endpoint: endpoint.into(),
@@ -161,10 +146,7 @@ impl Client {
     }
 
     /// Submits a transfer from an endpoint; gives its number.
-    ///
-    /// # Errors
-    /// What the system says.
-    pub fn read(&mut self, endpoint: u8, most: u32) -> io::Result<u32> {
+    pub(crate) fn read(&mut self, endpoint: u8, most: u32) -> io::Result<u32> {
         let header = Header {
             command: SUBMIT,
             from_device: true,
@@ -176,10 +158,7 @@ impl Client {
     }
 
     /// Takes a transfer back; gives the number of the request.
-    ///
-    /// # Errors
-    /// What the system says.
-    pub fn take_back(&mut self, sequence: u32) -> io::Result<u32> {
+    pub(crate) fn take_back(&mut self, sequence: u32) -> io::Result<u32> {
         let header = Header {
             command: UNLINK,
             numbers: [sequence, 0, 0, 0, 0],
@@ -189,10 +168,7 @@ impl Client {
     }
 
     /// Waits for what the server sends next, 5 s at most.
-    ///
-    /// # Errors
-    /// What the system says; the end of the stream where the device is unplugged.
-    pub fn wait(&mut self) -> io::Result<Event> {
+    pub(crate) fn wait(&mut self) -> io::Result<Event> {
         let header = Header::of(&take::<HEADER>(&mut self.stream)?);
         let sequence = header.sequence;
         let [status, count, ..] = header.numbers;

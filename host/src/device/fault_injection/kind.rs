@@ -1,9 +1,7 @@
 //! Kinds of faults of a device.
 
-use crate::fault_plan::{FaultKind, FaultPlan};
-
 /// A kind of injected fault.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum InjectedFault {
     /// A reading is lost.
     Lost,
@@ -29,11 +27,9 @@ pub enum InjectedFault {
     ClockStep,
 }
 
-/// Number of kinds.
-pub(super) const KINDS: usize = 11;
-
-impl FaultKind<KINDS> for InjectedFault {
-    const ALL: [Self; KINDS] = [
+impl InjectedFault {
+    /// Every kind.
+    pub const ALL: [Self; 11] = [
         Self::Lost,
         Self::Late,
         Self::Duplicate,
@@ -47,11 +43,9 @@ impl FaultKind<KINDS> for InjectedFault {
         Self::ClockStep,
     ];
 
-    fn index(self) -> usize {
-        self as usize
-    }
-
-    fn name(self) -> &'static str {
+    /// Name for tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
         match self {
             Self::Lost => "lost",
             Self::Late => "late",
@@ -67,6 +61,3 @@ impl FaultKind<KINDS> for InjectedFault {
         }
     }
 }
-
-/// Start rate and duration of each fault of a device; for a clock step, the most periods that it skips.
-pub type Plan = FaultPlan<InjectedFault, KINDS>;

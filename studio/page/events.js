@@ -1,0 +1,12 @@
+// Events, by which the parts of the page hear of each other.
+
+export class Events extends EventTarget {
+  /** Calls `hear` with what `emit` gives it. */
+  on(name, hear) {
+    this.addEventListener(name, ({ detail }) => hear(detail));
+  }
+
+  emit(name, detail) {
+    this.dispatchEvent(new CustomEvent(name, { detail }));
+  }
+}
