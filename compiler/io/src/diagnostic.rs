@@ -34,14 +34,14 @@ pub struct Fault {
     /// The fault.
     pub what: String,
     /// A step for the user, in one sentence.
-    pub remedy: String,
+    pub remedy: Box<str>,
     /// True if the command was called wrongly.
     pub usage: bool,
 }
 
 impl Fault {
     /// A fault without a place.
-    pub fn new(what: impl Display, remedy: impl Into<String>) -> Self {
+    pub fn new(what: impl Display, remedy: impl Into<Box<str>>) -> Self {
         Self {
             file: None,
             line: None,
@@ -81,7 +81,7 @@ impl Fault {
     /// Puts a suggestion, if there is one, before the remedy.
     pub fn suggest(mut self, suggestion: Option<String>) -> Self {
         if let Some(suggestion) = suggestion {
-            self.remedy = format!("{suggestion} {}", self.remedy);
+            self.remedy = format!("{suggestion} {}", self.remedy).into();
         }
         self
     }
@@ -114,7 +114,7 @@ impl Error for Fault {}
 
 impl Diagnostic for Fault {
     fn remedy(&self) -> String {
-        self.remedy.clone()
+        self.remedy.to_string()
     }
 
     fn is_usage(&self) -> bool {

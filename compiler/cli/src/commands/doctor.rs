@@ -131,7 +131,7 @@ fn findings(args: &Doctor) -> Vec<Finding> {
             what: "onnxruntime",
             found: false,
             detail: error.to_string(),
-            remedy: Some(not_installed(error).remedy),
+            remedy: Some(not_installed(error).remedy.into()),
         },
     });
     findings.push(clip(args));

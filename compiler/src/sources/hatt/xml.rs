@@ -65,7 +65,7 @@ impl<'a, 'i> Element<'a, 'i> {
     }
 
     /// A fault at this element.
-    pub(super) fn fault(&self, what: impl Display, remedy: impl Into<String>) -> Fault {
+    pub(super) fn fault(&self, what: impl Display, remedy: impl Into<Box<str>>) -> Fault {
         let start = self.node.range().start;
         let line = u64::from(self.node.document().text_pos_at(start).row);
         Fault::new(what, remedy).at(self.file).line(line)

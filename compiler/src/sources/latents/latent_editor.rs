@@ -108,7 +108,7 @@ impl<'a> LatentEditor<'a> {
     /// [`Fault`] when a network fails.
     pub fn texture(&self, latents: &Latents) -> Result<TextureModel, Fault> {
         let model = self.prompt_compiler.model();
-        Ok(decode(model, latents, "", Provenance::default())?)
+        decode(model, latents, "", Provenance::default())
     }
 
     /// The attributes of these latents, before anything is reduced.

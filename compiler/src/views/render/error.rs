@@ -62,6 +62,6 @@ fn at_rate(fault: Fault, cause: LoadError) -> Fault {
     let LoadError::Rate { model_hz, .. } = cause else {
         return fault;
     };
-    let remedy = format!("give --rate {model_hz} or 2, 3, … 20 times as much");
+    let remedy = format!("give --rate {model_hz} or 2, 3, … 20 times as much").into();
     Fault { remedy, ..fault }.usage()
 }

@@ -6,12 +6,12 @@ use asperity_io::diagnostic::{Failures, Fault, one};
 pub(crate) struct Plain;
 
 impl Plain {
-    pub(crate) fn failure(what: impl std::fmt::Display, remedy: impl Into<String>) -> Failures {
+    pub(crate) fn failure(what: impl std::fmt::Display, remedy: impl Into<Box<str>>) -> Failures {
         one(Fault::new(what, remedy))
     }
 
     /// The command was called wrongly.
-    pub(crate) fn usage(what: impl std::fmt::Display, remedy: impl Into<String>) -> Failures {
+    pub(crate) fn usage(what: impl std::fmt::Display, remedy: impl Into<Box<str>>) -> Failures {
         one(Fault::new(what, remedy).usage())
     }
 }
