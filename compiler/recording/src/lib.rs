@@ -53,10 +53,11 @@
 //! | check | [`check`] | a verdict for each channel, and what to do about it |
 //! | resonance | [`resonance`] | that of tool and sensor, by taps in free air, and the acceleration without it |
 //! | segments | [`segments`] | stretches of steady speed and force, and of changing ones |
+//! | grid | [`grid`] | AR models over speed and force, and beyond what was visited |
 //! | friction | [`friction`] | μ with its spread, and how it depends on speed and load |
 //! | taps | [`impact`] | impacts, their speeds, a mean transient for each speed |
 //!
-//! What must stay absent: textures, assets, the learned model, pictures.
+//! What must stay absent: whole textures, assets, the learned model, pictures.
 #![forbid(unsafe_code)]
 
 pub mod channel;
@@ -64,6 +65,7 @@ pub mod check;
 pub mod description;
 mod file;
 pub mod friction;
+pub mod grid;
 pub mod impact;
 mod least_squares;
 pub mod reader;

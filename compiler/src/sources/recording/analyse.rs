@@ -1,12 +1,12 @@
 //! From a folder to what its sensors say of a surface.
 
-use super::grid::{self, GridFit};
 use crate::pipeline::Clock;
 use asperity_io::{diagnostic::Fault, shown::counted};
 use asperity_recording::{
     check::{self, Checked},
     description::Quantity,
     friction::{self, Friction},
+    grid::{self, GridFit},
     impact::{self, Impact, SpeedSource, Transient},
     reader::{self, Recording},
     resonance::{self, FreeAir},

@@ -8,7 +8,6 @@
 
 mod analyse;
 mod complete;
-mod grid;
 mod report;
 mod sheet;
 mod source;
@@ -16,7 +15,6 @@ mod texture;
 
 pub use analyse::{Analysis, Step, analyse, check};
 pub use complete::{Completed, Nearest, complete};
-pub use grid::{GridFit, Slopes, Tried, VertexFacts, fit};
 pub use sheet::{HEIGHT_PX, WIDTH_PX};
 pub use source::{KIND, Recorded, RecordingFolder};
 pub use texture::{Parts, texture};

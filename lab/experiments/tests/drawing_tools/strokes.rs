@@ -1,6 +1,6 @@
 //! Strokes at six speeds: models of five of them predict the sixth.
 
-use asperity::{model::mixture::Field, signal::spectrum::ArmaModel, sources::recording};
+use asperity::{model::mixture::Field, signal::spectrum::ArmaModel};
 use asperity_recording::{
     segments::{self, Segments},
     signal::resample::Clock,
@@ -140,7 +140,7 @@ fn rms(x: &[f64], y: &[f64]) -> f64 {
 
 /// The spectrum that the grid of some segments renders at a speed.
 fn predicted(steady: &Segments, speed: usize) -> Option<Vec<f64>> {
-    let fit = recording::fit(steady)?;
+    let fit = asperity_recording::grid::fit(steady)?;
     let field = Field::new(&fit.grid);
     let place = field.locate(STEP_MM_S * speed as f64, LOAD_N)?;
     Some(of_model(&field.model(&place)))

@@ -1,6 +1,6 @@
 //! Model panels: spectra, choice of the grid, uncertainty.
 
-use crate::sources::recording::{grid::Tried, sheet::Shown};
+use crate::sources::recording::sheet::Shown;
 use asperity_plot::{Axis, Canvas, Key, Marker, Panel, Rect, Stroke, ink};
 use asperity_recording::segments::frequencies_hz;
 use asperity_texture::model::mixture::Field;
@@ -79,60 +79,35 @@ pub(super) fn spectra(canvas: &mut Canvas, rect: Rect, import: &Shown<'_>, part:
     panel.legend(canvas, &keys);
 }
 
-/// Held-out error over the number of vertices, and over the AR order.
+/// Held-out error over the AR order.
 pub(super) fn held_out(canvas: &mut Canvas, rect: Rect, import: &Shown<'_>) {
     let fit = &import.analysis.fit;
-    let chosen = fit.chosen;
-    let least = fit
-        .tried
-        .iter()
+    let tried = fit.tried.iter().filter(|t| t.held_out.is_finite());
+    let least = tried
+        .clone()
         .map(|t| t.held_out)
         .fold(f64::INFINITY, f64::min);
-    let finite = |t: &&Tried| t.held_out.is_finite();
-    let mut by_count: Vec<(f64, f64)> = fit
-        .tried
-        .iter()
-        .filter(finite)
-        .filter(|t| {
-            t.order == chosen.order
-                && t.width == chosen.width
-                && t.nyquist_zero == chosen.nyquist_zero
-        })
-        .map(|t| (t.vertices as f64, t.held_out - least))
-        .collect();
-    by_count.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut by_order: Vec<(f64, f64)> = fit
-        .tried
-        .iter()
-        .filter(finite)
-        .filter(|t| t.nyquist_zero == chosen.nyquist_zero)
+    let mut by_order: Vec<(f64, f64)> = tried
+        .filter(|t| t.nyquist_zero == fit.chosen.nyquist_zero)
         .map(|t| (t.order as f64, t.held_out - least))
         .collect();
     by_order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     by_order.dedup_by_key(|p| p.0 as usize);
-    let values = by_count.iter().chain(&by_order).map(|p| p.1).chain([0.0]);
     let panel = Panel::new(
         rect,
-        Axis::new("Vertices, or AR order", 0.0, 26.0),
-        Axis::covering("Held-out excess (nats)", values),
+        Axis::new("AR order", 0.0, 26.0),
+        Axis::covering(
+            "Held-out excess (nats)",
+            by_order.iter().map(|p| p.1).chain([0.0]),
+        ),
     )
     .letter('f')
-    .title("How vertices and order were chosen")
-    .with_legend(1);
+    .title("How the AR order was chosen");
     panel.draw_frame(canvas);
-    let drawn = [(by_count, "vertices"), (by_order, "AR order")];
-    let keys = drawn
-        .into_iter()
-        .enumerate()
-        .map(|(index, (points, name))| {
-            let stroke = Stroke::category(index, 2.0);
-            let (marker, fill) = (Marker::category(index), Some(stroke.color));
-            panel.line(canvas, points.iter().copied(), stroke);
-            panel.points(canvas, points, marker, 7.0, fill, None);
-            (Key::Point(marker, 7.0, fill, None), name)
-        });
-    let keys: Vec<_> = keys.collect();
-    panel.legend(canvas, &keys);
+    let stroke = Stroke::category(0, 2.0);
+    let (marker, fill) = (Marker::category(0), Some(stroke.color));
+    panel.line(canvas, by_order.iter().copied(), stroke);
+    panel.points(canvas, by_order, marker, 7.0, fill, None);
 }
 
 /// Seconds behind each vertex, and how far its residual is from white.

@@ -8,11 +8,8 @@
 //! beyond them the power law of the whole plane. What noise makes of the shape within a band is shrunk
 //! towards a flat one.
 
-use super::{
-    band::{BANDS, Fit, Measured, add, inverse, ridge},
-    lags::Transform,
-};
-use asperity_recording::segments::{POINTS, Segment, Segments};
+use super::band::{BANDS, Fit, Measured, add, inverse, ridge};
+use crate::segments::{POINTS, Segment, Segments};
 
 /// Offsets of the logarithms: below them, speed and force count linearly.
 const OFFSETS: (f64, f64) = (3.0, 0.03);
@@ -57,17 +54,6 @@ pub(super) struct Local {
     scale: [f64; 2],
     /// Power law of every band over the whole plane, about its centre.
     everywhere: Vec<[f64; 3]>,
-    /// From powers to an autocorrelation.
-    transform: Transform,
-}
-
-/// The autocorrelation estimated at a speed and a force.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Estimate {
-    /// Autocorrelation at the first lags, (m/s²)².
-    pub(super) lags: Vec<f64>,
-    /// Samples that it rests on.
-    pub(super) samples: f64,
 }
 
 fn coordinates(speed_mm_s: f64, force_n: f64) -> [f64; 2] {
@@ -82,8 +68,9 @@ type Near<'a> = (&'a Row, [f64; 2], f64);
 
 impl Local {
     /// Fits the segments, under the sensors' noise.
-    pub(super) fn new<'a>(strokes: &Segments, segments: impl Iterator<Item = &'a Segment>) -> Self {
+    pub(super) fn new(strokes: &Segments, segments: &[&Segment]) -> Self {
         let mut rows: Vec<Row> = segments
+            .iter()
             .map(|segment| Row {
                 place: coordinates(segment.speed_mm_s, segment.force_n),
                 weight: segment.length as f64,
@@ -128,23 +115,7 @@ impl Local {
             centre,
             scale,
             everywhere,
-            transform: Transform::new(),
         }
-    }
-
-    /// The estimate at a place from a neighbourhood of a width in standard deviations; `None` of no
-    /// segments.
-    pub(super) fn at(&self, speed_mm_s: f64, force_n: f64, width: f64) -> Option<Estimate> {
-        let (power, samples) = self.power(self.place((speed_mm_s, force_n)), width)?;
-        Some(Estimate {
-            lags: self.lags(&power),
-            samples,
-        })
-    }
-
-    /// Power at the frequencies of a segment, (m/s²)², as [`Local::at`] has it at a speed and a force.
-    pub(super) fn spectrum(&self, place: (f64, f64), width: f64) -> Option<Vec<f64>> {
-        Some(self.power(self.place(place), width)?.0)
     }
 
     /// Samples in the neighbourhood of a place, each by how near it is.
@@ -178,19 +149,16 @@ impl Local {
             .collect()
     }
 
-    /// Autocorrelation of a spectrum.
-    pub(super) fn lags(&self, power: &[f64]) -> Vec<f64> {
-        self.transform.lags(power)
-    }
-
     /// A speed and a force in coordinates of unit variance.
     fn place(&self, (speed_mm_s, force_n): (f64, f64)) -> [f64; 2] {
         let place = coordinates(speed_mm_s, force_n);
         [0, 1].map(|axis| (place[axis] - self.centre[axis]) / self.scale[axis])
     }
 
-    /// Power at the frequencies of a segment, and the samples that it rests on.
-    fn power(&self, place: [f64; 2], width: f64) -> Option<(Vec<f64>, f64)> {
+    /// Power at the frequencies of a segment, (m/s²)², from a neighbourhood of a width in standard deviations, and the
+    /// samples that it rests on; `None` for no segments.
+    pub(super) fn spectrum(&self, place: (f64, f64), width: f64) -> Option<(Vec<f64>, f64)> {
+        let place = self.place(place);
         let mean_weight =
             self.rows.iter().map(|row| row.weight).sum::<f64>() / self.rows.len() as f64;
         let mut near: Vec<Near<'_>> = self
@@ -302,11 +270,14 @@ fn bands(power: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sources::recording::grid::{
-        simulated::segments,
-        vertex::{Form, vertex},
+    use crate::{
+        grid::{
+            simulated::segments,
+            vertex::{Form, Modeller},
+        },
+        segments::frequencies_hz,
+        timeline::RATE_HZ,
     };
-    use asperity_recording::{segments::frequencies_hz, timeline::RATE_HZ};
     use asperity_texture::{
         model::Numerator,
         signal::{lsf, spectrum::squared_magnitude},
@@ -336,13 +307,16 @@ mod tests {
 
     /// Mean and RMS of the model over the truth, dB.
     fn error_db(strokes: &Segments, speed_mm_s: f64, force_n: f64) -> (f64, f64) {
-        let local = Local::new(strokes, strokes.segments.iter());
-        let lags = local.at(speed_mm_s, force_n, 0.5).expect("segments").lags;
+        let all: Vec<&Segment> = strokes.segments.iter().collect();
+        let place = (speed_mm_s, force_n);
+        let (power, _) = Local::new(strokes, &all)
+            .spectrum(place, 0.5)
+            .expect("segments");
         let form = Form {
             order: 6,
             numerator: Numerator::None,
         };
-        let found = vertex(speed_mm_s, force_n, &lags, form).expect("a model");
+        let found = Modeller::new(form).vertex(place, &power).expect("a model");
         let a = lsf::to_polynomial(&found.lsf_rad);
         let db: Vec<f64> = frequencies_hz()
             .into_iter()

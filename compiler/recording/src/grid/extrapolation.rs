@@ -1,21 +1,16 @@
 //! Vertices beyond what was visited.
 //!
-//! A recording ends at its slowest, fastest, lightest and hardest strokes. Beyond them stand vertices of
-//! their own: the power of every band at the nearest visited place goes on with its power law of speed and
-//! force. A law of a whole plane need not hold at its ends. So the outermost quarter of the time at each
-//! end is held out, and as much of the slopes is kept as it takes to predict it from the rest. Silence is left
-//! to rest itself, and to no touch.
+//! A recording ends at its slowest, fastest, lightest and hardest strokes. Beyond them stand vertices of their own: the
+//! power of every band at the nearest visited place goes on with its power law of speed and force. A law of a whole
+//! plane need not hold at its ends, so it goes on with that part of the slopes that best predicts the outermost quarter
+//! of the segments from the others. Silence is left to rest itself, and to no touch.
 
-use super::{
-    local::Local,
-    vertex::{Form, vertex},
-    whittle,
-};
-use asperity_formats::limits::{MAX_FORCE_N, MAX_SPEED_MM_S};
-use asperity_recording::{
+use super::{local::Local, vertex::Modeller, whittle};
+use crate::{
     segments::{Segment, Segments},
     signal::quantile::quantile,
 };
+use asperity_formats::limits::{MAX_FORCE_N, MAX_SPEED_MM_S};
 use asperity_texture::model::{GridVertex, VertexKind};
 use serde::Serialize;
 
@@ -31,23 +26,20 @@ const NARROW: f64 = 1.5;
 const LEAST_PART: f64 = 0.01;
 /// Parts of the slopes that are tried.
 const PARTS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+/// Part of the segments that are held out at an end, how many of them are predicted, and the fewest on either side.
+const OUTERMOST: f64 = 0.25;
+const PREDICTED: usize = 32;
+const FEWEST: usize = 6;
 /// Widths of the neighbourhood at the visited border, standard deviations: between them lies that of the
 /// grid. It is doubled, so often at most, until it holds so many samples: a corner of the rectangle may be
 /// far from any stroke.
 const WIDTHS: (f64, f64) = (0.25, 0.5);
 const DOUBLINGS: i32 = 5;
 const ENOUGH: f64 = 1000.0;
-/// Part of the segments that are held out at an end, and how many are looked at.
-const OUTERMOST: f64 = 0.25;
-const LOOKED_AT: usize = 32;
-/// Fewest segments on either side of such a cut.
-const FEWEST: usize = 6;
-/// Part of the slopes where too few segments could be held out.
-const UNKNOWN: f64 = 0.5;
 /// Mean power of a vertex over that of the loudest place at the visited border, at most: 6 dB.
 const LOUDEST: f64 = 4.0;
 
-/// Fraction of the slopes that is kept at each end.
+/// Part of the slopes that is kept at each end.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Slopes {
     /// Below and above the visited speeds.
@@ -57,62 +49,47 @@ pub struct Slopes {
 }
 
 impl Slopes {
-    /// As held-out segments have it.
-    pub(super) fn of(strokes: &Segments) -> Self {
-        let speed = |s: &Segment| s.speed_mm_s;
-        let force = |s: &Segment| s.force_n;
-        let end = |of, above| kept(strokes, of, above).unwrap_or(UNKNOWN);
+    pub(super) fn new(strokes: &Segments) -> Self {
+        // Where too few segments can be held out, the law is followed half way.
+        let end = |of, above| kept(strokes, of, above).unwrap_or(0.5);
+        let ends = |of| [end(of, false), end(of, true)];
         Self {
-            speed: [end(speed, false), end(speed, true)],
-            force: [end(force, false), end(force, true)],
+            speed: ends(|s| s.speed_mm_s),
+            force: ends(|s| s.force_n),
         }
     }
 }
 
-/// The least part of the slopes that predicts the outermost segments of an end as well as any.
+/// The part of the slopes that best predicts the outermost segments of an end; `None` for too few.
 fn kept(strokes: &Segments, of: fn(&Segment) -> f64, above: bool) -> Option<f64> {
-    let all: Vec<&Segment> = strokes.segments.iter().collect();
-    let (least, largest) = range(&all, of);
+    let (least, largest) = range(&strokes.segments, of);
     if largest < NARROW * least {
         return Some(0.0);
     }
     let at = if above { 1.0 - OUTERMOST } else { OUTERMOST };
     let cut = quantile(strokes.segments.iter().map(of), at);
-    let (out, rest): (Vec<&Segment>, Vec<&Segment>) = strokes
+    let (out, rest): (Vec<Segment>, Vec<Segment>) = strokes
         .segments
         .iter()
+        .cloned()
         .partition(|s| if above { of(s) > cut } else { of(s) < cut });
     if out.len() < FEWEST || rest.len() < FEWEST {
         return None;
     }
+    let local = Local::new(strokes, &rest.iter().collect::<Vec<_>>());
     let visited = Visited::new(&rest);
-    let local = Local::new(strokes, rest.into_iter());
-    let mut errors = Vec::new();
-    for segment in out.iter().step_by(out.len().div_ceil(LOOKED_AT)) {
+    let mut errors = [0.0; PARTS.len()];
+    for segment in out.iter().step_by(out.len().div_ceil(PREDICTED)) {
         let to = (segment.speed_mm_s, segment.force_n);
-        let from = at_border(&local, visited.nearest(to), WIDTHS.0)?;
-        errors.push(PARTS.map(|part| {
-            let power = local.moved(&from, visited.nearest(to), to, [part; 2]);
-            segment.length as f64 * whittle::of_power(strokes, &power, segment)
-        }));
+        let from = visited.nearest(to);
+        let power = at_border(&local, from, WIDTHS.0)?;
+        for (sum, part) in errors.iter_mut().zip(PARTS) {
+            let power = local.moved(&power, from, to, [part; 2]);
+            *sum += whittle::of_segment(strokes, &power, segment).0;
+        }
     }
-    Some(PARTS[simplest(&errors)])
-}
-
-/// The first column whose errors are no larger than those of the best one by more than a standard error of
-/// their mean difference (Breiman, Friedman, Olshen and Stone, 1984).
-fn simplest<const N: usize>(errors: &[[f64; N]]) -> usize {
-    let total = |column: usize| errors.iter().map(|row| row[column]).sum::<f64>();
-    let best = (0..N).min_by(|&a, &b| total(a).total_cmp(&total(b)));
-    let best = best.unwrap_or(0);
-    let is_as_good = |&column: &usize| {
-        let count = errors.len() as f64;
-        let mean = (total(column) - total(best)) / count;
-        let square = |row: &[f64; N]| (row[column] - row[best] - mean).powi(2);
-        let variance = errors.iter().map(square).sum::<f64>() / (count - 1.0).max(1.0);
-        mean <= (variance / count).sqrt()
-    };
-    (0..best).find(is_as_good).unwrap_or(best)
+    let best = (0..PARTS.len()).min_by(|&a, &b| errors[a].total_cmp(&errors[b]));
+    best.map(|best| PARTS[best])
 }
 
 /// The least and the largest speed and force of segments.
@@ -123,7 +100,7 @@ pub(super) struct Visited {
 }
 
 impl Visited {
-    pub(super) fn new(segments: &[&Segment]) -> Self {
+    pub(super) fn new(segments: &[Segment]) -> Self {
         Self {
             speed_mm_s: range(segments, |s| s.speed_mm_s),
             force_n: range(segments, |s| s.force_n),
@@ -138,8 +115,8 @@ impl Visited {
     }
 }
 
-fn range(segments: &[&Segment], of: fn(&Segment) -> f64) -> (f64, f64) {
-    let values = || segments.iter().map(|s| of(s));
+fn range(segments: &[Segment], of: fn(&Segment) -> f64) -> (f64, f64) {
+    let values = || segments.iter().map(of);
     let largest = values().fold(0.0, f64::max);
     let least = values().fold(largest, f64::min);
     (least.max(LEAST_PART * largest), largest)
@@ -151,7 +128,7 @@ fn at_border(local: &Local, place: (f64, f64), width: f64) -> Option<Vec<f64>> {
     let mut widths = (0..=DOUBLINGS).map(|n| width * f64::from(1 << n));
     let widest = width * f64::from(1 << DOUBLINGS);
     let enough = widths.find(|&width| local.weight(place, width) >= ENOUGH);
-    local.spectrum(place, enough.unwrap_or(widest))
+    Some(local.spectrum(place, enough.unwrap_or(widest))?.0)
 }
 
 /// The vertices that close the rectangle around what all segments visited, as some of them have it. They
@@ -161,7 +138,7 @@ pub(super) fn ring(
     local: &Local,
     slopes: &Slopes,
     width: f64,
-    form: Form,
+    modeller: &Modeller,
 ) -> Option<Vec<GridVertex>> {
     let speeds = lines(visited.speed_mm_s, f64::from(MAX_SPEED_MM_S));
     let forces = lines(visited.force_n, f64::from(MAX_FORCE_N));
@@ -199,7 +176,7 @@ pub(super) fn ring(
         power.iter_mut().for_each(|p| *p *= lower);
         ring.push(GridVertex {
             kind: VertexKind::Edge,
-            ..vertex(to.0, to.1, &local.lags(&power), form)?
+            ..modeller.vertex(to, &power)?
         });
     }
     let distance = |v: &GridVertex, place: (f64, f64)| {

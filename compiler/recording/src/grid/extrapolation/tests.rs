@@ -1,7 +1,9 @@
 use super::*;
-use crate::sources::recording::grid::{Choice, build, simulated::segments};
+use crate::{
+    grid::{Choice, Form, build, simulated::segments},
+    segments::POINTS,
+};
 use asperity_formats::limits::{MAX_TRIANGLES, MAX_VERTICES};
-use asperity_recording::segments::POINTS;
 use asperity_texture::model::{ModelGrid, Numerator, mesh, mixture::Field};
 
 /// Segments of half a second of white vibration whose mean power is a function of speed and force.
@@ -13,17 +15,14 @@ fn strokes(speeds: (f64, f64), forces: (f64, f64), power: impl Fn(f64, f64) -> f
     }
 }
 
-fn grid(strokes: &Segments, vertices: usize) -> ModelGrid {
+fn grid(strokes: &Segments) -> ModelGrid {
     let choice = Choice {
         form: Form {
             order: 4,
             numerator: Numerator::None,
         },
         width: 0.5,
-        vertices,
-        steepness: 0.05,
-        prior_s: Some(0.5),
-        beyond: Slopes::of(strokes),
+        beyond: Slopes::new(strokes),
     };
     let all: Vec<&Segment> = strokes.segments.iter().collect();
     build(strokes, &all, choice).expect("a grid").0
@@ -40,7 +39,7 @@ fn over_db(grid: &ModelGrid, place: (f64, f64), power: f64) -> f64 {
 #[test]
 fn a_power_law_goes_on_beyond_what_was_visited_and_rest_is_silent() {
     let law = |v: f64, f: f64| libm::pow(v / 100.0, 1.6) * libm::pow(f, 0.8);
-    let grid = grid(&strokes((40.0, 160.0), (0.5, 2.0), law), 12);
+    let grid = grid(&strokes((40.0, 160.0), (0.5, 2.0), law));
     // A quarter of the slowest speed may be louder: speeds count as ln(v + 3 mm/s), which alone is 1 dB.
     for (v, f, most_db) in [
         (20.0, 1.0, 2.0),
@@ -59,7 +58,7 @@ fn a_power_law_goes_on_beyond_what_was_visited_and_rest_is_silent() {
 
 #[test]
 fn a_level_that_speed_and_force_do_not_change_stays_beyond_what_was_visited() {
-    let grid = grid(&strokes((40.0, 160.0), (0.5, 2.0), |_, _| 1.0), 12);
+    let grid = grid(&strokes((40.0, 160.0), (0.5, 2.0), |_, _| 1.0));
     for (v, f) in [
         (20.0, 1.0),
         (10.0, 1.0),
@@ -81,15 +80,15 @@ fn any_visited_range_makes_a_grid_within_the_limits_that_is_not_much_louder() {
         ((8.0, 9_000.0), (0.03, 500.0)),
     ] {
         let strokes = strokes(speeds, forces, steep);
-        let grid = grid(&strokes, 25);
+        let grid = grid(&strokes);
         assert!(grid.vertices.len() <= MAX_VERTICES, "{speeds:?}");
         assert!(grid.triangles.len() <= MAX_TRIANGLES, "{speeds:?}");
         assert_eq!(mesh::check(&grid), Ok(()), "{speeds:?}");
         let all: Vec<&Segment> = strokes.segments.iter().collect();
-        let local = Local::new(&strokes, all.iter().copied());
-        let visited = Visited::new(&all);
+        let local = Local::new(&strokes, &all);
+        let visited = Visited::new(&strokes.segments);
         let mean = |place| {
-            let power = local.spectrum(place, 0.5).expect("segments");
+            let (power, _) = local.spectrum(place, 0.5).expect("segments");
             power.iter().sum::<f64>() / POINTS as f64
         };
         let loudest = [speeds.0, speeds.1]
@@ -101,16 +100,4 @@ fn any_visited_range_makes_a_grid_within_the_limits_that_is_not_much_louder() {
             assert!(over_db(&grid, place, loudest) < 6.5, "{vertex:?}");
         }
     }
-}
-
-#[test]
-fn the_simplest_of_equally_good_columns_counts() {
-    let noisy = |n: usize| if n.is_multiple_of(2) { 1.0 } else { -1.0 };
-    // The second is better in the mean, by less than its differences scatter.
-    let errors: Vec<[f64; 2]> = (0..16).map(|n| [5.0, 4.9 + noisy(n)]).collect();
-    assert_eq!(simplest(&errors), 0);
-    // Better every time.
-    let errors: Vec<[f64; 2]> = (0..16).map(|n| [5.0, 4.9 + 0.01 * noisy(n)]).collect();
-    assert_eq!(simplest(&errors), 1);
-    assert_eq!(simplest::<3>(&[]), 0);
 }

@@ -1,6 +1,6 @@
 //! Segments for the tests: Gaussian vibration whose mean power is known.
 
-use asperity_recording::segments::{LAGS, POINTS, Segment, frequencies_hz};
+use crate::segments::{LAGS, POINTS, Segment, frequencies_hz};
 
 /// Segments of half a second at places that lie evenly over the logarithms of a range of speeds, mm/s, and
 /// one of forces, N. `power` is the mean power at a speed, a force and a frequency, Hz.
