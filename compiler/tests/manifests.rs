@@ -4,21 +4,18 @@
 mod lists;
 
 use asperity::{
-    library::{
-        Lock, Manifest,
-        manifest::{ManifestError, Origin},
-    },
+    library::{Lock, Manifest, manifest::Origin},
     scene::Description,
     sources::Registry,
 };
-use asperity_io::{diagnostic::report, input::Reach};
+use asperity_io::{diagnostic::Fault, diagnostic::report, input::Reach};
 use asperity_tests::draw::Draw;
 use lists::{csv, json_lines, toml};
 use std::{collections::BTreeMap, fmt::Write as _, fs, path::Path};
 
 const LISTS: usize = 150;
 
-fn told(errors: &[ManifestError]) -> String {
+fn told(errors: &[Fault]) -> String {
     errors.iter().map(|error| report(error) + "\n").collect()
 }
 

@@ -1,10 +1,7 @@
 //! Differences between two libraries. Textures are compared in pairs, so that neither library is in memory as a whole.
 
 use crate::{collection::Collection, error::ApiError, opening::refused};
-use asperity::{
-    library::{Difference, LoadedLibrary, diff},
-    sources::latents::EditError,
-};
+use asperity::library::{Difference, LoadedLibrary, diff};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -55,5 +52,5 @@ fn compared(name: &str, old: Vec<u8>, now: Vec<u8>) -> Result<Difference, ApiErr
         is_library: true,
         has_scene: false,
     };
-    diff(&alone(old), &alone(now)).map_err(|e| refused(&EditError::from(e)))
+    diff(&alone(old), &alone(now)).map_err(|fault| refused(&fault))
 }

@@ -11,11 +11,11 @@ use asperity::{
     sources::latents::{AXES, Axis, remembered},
     views::{
         inspect::{self, Document},
-        preview::{self, PreviewError, SIZE, WIDTH_MM},
+        preview::{self, SIZE, WIDTH_MM, not_encoded},
     },
 };
 use asperity_formats::{Asset, FormatError};
-use asperity_io::output::FileNames;
+use asperity_io::{diagnostic::Fault, output::FileNames};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 use sha2::{Digest as _, Sha256};
@@ -220,7 +220,7 @@ impl Texture {
         drawn.clone()
     }
 
-    fn draw(&self, asset: &Asset<'_>) -> Result<Pictures, PreviewError> {
+    fn draw(&self, asset: &Asset<'_>) -> Result<Pictures, Fault> {
         let stored = asset.preview_png();
         let stored = stored.filter(|png| preview::stored(png).is_ok());
         let sizes = preview::SIZES;
@@ -229,10 +229,10 @@ impl Texture {
         Ok(Pictures {
             color: match stored {
                 Some(png) => png.into(),
-                None => picture.png()?.into(),
+                None => picture.png().map_err(not_encoded)?.into(),
             },
-            normal: picture.normal_png()?.into(),
-            height: picture.height_png()?.into(),
+            normal: picture.normal_png().map_err(not_encoded)?.into(),
+            height: picture.height_png().map_err(not_encoded)?.into(),
         })
     }
 }

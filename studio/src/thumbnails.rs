@@ -47,7 +47,7 @@ impl Thumbnails {
         let picture = preview::draw(&raise(&asset), SIZE_PX).map_err(|e| ApiError::of(&e))?;
         let png = picture
             .png()
-            .map_err(|e| ApiError::of(&preview::PreviewError::from(e)))?;
+            .map_err(|e| ApiError::of(&preview::not_encoded(e)))?;
         let png: Arc<[u8]> = png.into();
         self.lock().keep(at, &png);
         Ok(png)

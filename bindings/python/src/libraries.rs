@@ -1,10 +1,7 @@
 //! `asperity.merge` and `diff`, and what they read.
 
 use crate::{error::Failure, library::Library, records, texture::Texture};
-use asperity::{
-    library::{self, LibraryFault, LoadedLibrary},
-    sources::latents::EditError,
-};
+use asperity::library::{self, LoadedLibrary};
 use asperity_io::output;
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -66,9 +63,7 @@ pub(crate) fn merge(libraries: &Bound<'_, PyAny>, path: Option<PathBuf>) -> PyRe
     for (index, part) in libraries.try_iter()?.enumerate() {
         let part: Part<'_> = part?.extract()?;
         let part = part.loaded(py, format!("libraries[{index}]"))?;
-        if part.has_scene {
-            return Err(Failure::from(LibraryFault::Scene(part.shown)).into());
-        }
+        part.refuse_scene().map_err(Failure::from)?;
         parts.push(part);
     }
     let merged = py.detach(|| {
@@ -108,6 +103,5 @@ pub(crate) fn diff<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let (old, new) = (old.loaded(py, "old".into())?, new.loaded(py, "new".into())?);
     let difference = py.detach(|| library::diff(&old, &new));
-    let difference = difference.map_err(|error| Failure::from(EditError::from(error)))?;
-    records::value(py, &difference)
+    records::value(py, &difference.map_err(Failure::from)?)
 }

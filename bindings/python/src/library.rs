@@ -15,7 +15,7 @@ use asperity::{
         sections::renamed,
         textures::{Textures, TexturesError, TexturesProblem},
     },
-    library::{self, LibraryFault, LoadedLibrary},
+    library::{self, LoadedLibrary},
 };
 use asperity_formats::{self as formats, FormatError, SceneSurface};
 use asperity_io::output;
@@ -289,9 +289,7 @@ impl Library {
         let into = within("into", into, &(1..=9999))?;
         py.detach(|| {
             let loaded = self.loaded("library".into())?;
-            if loaded.has_scene {
-                return Err(LibraryFault::Scene(loaded.shown).into());
-            }
+            loaded.refuse_scene()?;
             let parts = library::split(&loaded, into)?.into_iter();
             parts.map(|bytes| Ok(Self::in_memory(bytes)?)).collect()
         })

@@ -12,7 +12,7 @@ use asperity::{
     pipeline::Clock,
     sources::{
         Tools,
-        latents::{Edit, EditError, LatentEditor, Mix, MixOptions, MixPreview, Part, Sliders},
+        latents::{Edit, LatentEditor, Mix, MixOptions, MixPreview, Part, Sliders, nothing_asked},
     },
 };
 use asperity_io::clock::now;
@@ -228,7 +228,7 @@ impl Mixing<'_, '_> {
         edit: Option<&Edit>,
     ) -> PyResult<Texture> {
         if edit.is_some_and(Edit::is_still) {
-            return Err(Failure::from(EditError::NothingAsked).into());
+            return Err(Failure::from(nothing_asked()).into());
         }
         self.mixed(py, |editor, options| {
             Ok(editor.change(&texture.contents.asset()?, edit, options)?)

@@ -11,7 +11,7 @@ use crate::{
     servo::{self, Servo, ServoError},
     texture::Texture,
 };
-use asperity::views::render::{MAX_SCENE_TEXTURES, RenderError};
+use asperity::views::render::check_textures;
 use asperity_formats::{FormatError, Library};
 use asperity_runtime::{Config, LoadError, Sample, SceneError, VibrationAxis};
 use pyo3::{IntoPyObjectExt as _, prelude::*, sync::MutexExt as _, types::IntoPyDict as _};
@@ -149,9 +149,7 @@ impl Renderer {
                 let bytes = py.detach(|| scene.bytes())?;
                 let library = Library::parse(&bytes).map_err(unreadable)?;
                 let textures = library.index().len();
-                if textures > MAX_SCENE_TEXTURES {
-                    return Err(RenderError::Textures { found: textures }.into());
-                }
+                check_textures(textures)?;
                 let first = library.asset(0).map_err(unreadable)?;
                 config.servo_rate_hz = rate.unwrap_or(first.grid().sample_rate_hz());
                 let servo = servo::on_scene(&library, &config, seed.0, fixed_point);

@@ -1,7 +1,14 @@
 //! The common style of every failure that a user reads: the fault, then the remedy.
 
-use crate::shown::{excerpt, plain};
-use std::error::Error;
+use crate::{
+    input::{InputError, InputProblem},
+    shown::{excerpt, plain},
+};
+use std::{
+    error::Error,
+    fmt::{self, Display},
+    path::PathBuf,
+};
 
 /// An error that says what to do about it.
 pub trait Diagnostic: Error {
@@ -11,6 +18,119 @@ pub trait Diagnostic: Error {
     /// Returns true for a usage error (exit status 2) rather than a failure (1).
     fn is_usage(&self) -> bool {
         false
+    }
+}
+
+/// A fault in words, with its place and its remedy.
+#[must_use]
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fault {
+    /// The file at fault, or the folder.
+    pub file: Option<PathBuf>,
+    /// The line or row at fault, from 1.
+    pub line: Option<u64>,
+    /// Path of the field at fault, e.g. `surface[1].texture`; may be empty.
+    pub field: String,
+    /// The fault.
+    pub what: String,
+    /// A step for the user, in one sentence.
+    pub remedy: Box<str>,
+    /// True if the command was called wrongly.
+    pub usage: bool,
+}
+
+impl Fault {
+    /// A fault without a place.
+    pub fn new(what: impl Display, remedy: impl Into<Box<str>>) -> Self {
+        Self {
+            file: None,
+            line: None,
+            field: String::new(),
+            what: what.to_string(),
+            remedy: remedy.into(),
+            usage: false,
+        }
+    }
+
+    /// The text, the remedy and the exit status of another error.
+    pub fn of(error: &dyn Diagnostic) -> Self {
+        Self {
+            usage: error.is_usage(),
+            ..Self::new(error, error.remedy())
+        }
+    }
+
+    /// Sets the file or the folder.
+    pub fn at(self, file: impl Into<PathBuf>) -> Self {
+        let file = Some(file.into());
+        Self { file, ..self }
+    }
+
+    /// Sets the line, if it is known.
+    pub fn line(self, line: impl Into<Option<u64>>) -> Self {
+        let line = line.into();
+        Self { line, ..self }
+    }
+
+    /// Sets the field.
+    pub fn field(self, field: impl Into<String>) -> Self {
+        let field = field.into();
+        Self { field, ..self }
+    }
+
+    /// Puts a suggestion, if there is one, before the remedy.
+    pub fn suggest(mut self, suggestion: Option<String>) -> Self {
+        if let Some(suggestion) = suggestion {
+            self.remedy = format!("{suggestion} {}", self.remedy).into();
+        }
+        self
+    }
+
+    /// Makes it a usage error.
+    pub fn usage(self) -> Self {
+        Self {
+            usage: true,
+            ..self
+        }
+    }
+}
+
+/// Formats `file:line: field: what`, without the parts of the place that are not known.
+impl Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(file) = &self.file {
+            write!(f, "{}", file.display())?;
+            self.line.map_or(Ok(()), |line| write!(f, ":{line}"))?;
+            f.write_str(": ")?;
+        }
+        if !self.field.is_empty() {
+            write!(f, "{}: ", self.field)?;
+        }
+        f.write_str(&self.what)
+    }
+}
+
+impl Error for Fault {}
+
+impl Diagnostic for Fault {
+    fn remedy(&self) -> String {
+        self.remedy.to_string()
+    }
+
+    fn is_usage(&self) -> bool {
+        self.usage
+    }
+}
+
+impl From<InputProblem> for Fault {
+    fn from(problem: InputProblem) -> Self {
+        Self::new(&problem, problem.remedy())
+    }
+}
+
+impl From<InputError> for Fault {
+    fn from(error: InputError) -> Self {
+        Self::from(error.problem).at(error.file)
     }
 }
 
@@ -69,6 +189,19 @@ mod tests {
         fn remedy(&self) -> String {
             format!("remove {}", self.0)
         }
+    }
+
+    #[test]
+    fn a_fault_shows_what_is_known_of_its_place() {
+        let fault = || Fault::new("no such key", "remove it");
+        assert_eq!(fault().to_string(), "no such key");
+        assert_eq!(fault().line(3).to_string(), "no such key");
+        assert_eq!(fault().field("a.b").to_string(), "a.b: no such key");
+        let placed = fault().at("x.toml").line(3).field("a.b").usage();
+        assert_eq!(placed.to_string(), "x.toml:3: a.b: no such key");
+        assert!(placed.is_usage() && !fault().is_usage());
+        let suggested = fault().suggest(Some("did you mean \"c\"?".into()));
+        assert_eq!(suggested.remedy(), "did you mean \"c\"? remove it");
     }
 
     #[test]

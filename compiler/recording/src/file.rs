@@ -1,7 +1,10 @@
 //! Files that end: what else a path may lead to would be read for ever.
 
-use crate::error::{Problem, RecordingError};
-use asperity_io::input::{Format, HEAD};
+use crate::remedy::{self, unreadable};
+use asperity_io::{
+    diagnostic::Fault,
+    input::{Format, HEAD},
+};
 use std::{
     fs::File,
     io::{Read as _, Seek as _},
@@ -10,36 +13,33 @@ use std::{
 
 /// Opens a regular file with something in it. Pipes, sockets and devices have no end and are refused,
 /// and so are files of other known formats than a recording has, by their names.
-pub(crate) fn open(path: &Path) -> Result<File, RecordingError> {
-    let unreadable = |error| RecordingError::of(path, Problem::Unreadable(error));
-    let metadata = std::fs::metadata(path).map_err(unreadable)?;
+pub(crate) fn open(path: &Path) -> Result<File, Fault> {
+    let metadata = std::fs::metadata(path).map_err(unreadable(path))?;
     if !metadata.is_file() {
-        let problem = Problem::Format("is no file with an end".into());
-        return Err(RecordingError::of(path, problem));
+        return Err(Fault::new("is no file with an end", remedy::FORMAT).at(path));
     }
     if metadata.len() == 0 {
-        let problem = Problem::File {
-            what: "is empty".into(),
-            remedy: "copy or record it again",
-        };
-        return Err(RecordingError::of(path, problem));
+        return Err(Fault::new("is empty", "copy or record it again").at(path));
     }
-    let mut file = File::open(path).map_err(unreadable)?;
+    let mut file = File::open(path).map_err(unreadable(path))?;
     let mut start = Vec::new();
     (&mut file)
         .take(HEAD as u64)
         .read_to_end(&mut start)
         .and_then(|_| file.rewind())
-        .map_err(unreadable)?;
-    let problem = match Format::of(&start) {
+        .map_err(unreadable(path))?;
+    let fault = match Format::of(&start) {
         None | Some(Format::Wav | Format::Numpy) => return Ok(file),
-        Some(Format::LfsPointer) => Problem::Pointer,
-        Some(other) => Problem::File {
-            what: format!("is {}, not part of a recording", other.name()),
-            remedy: other.remedy(),
-        },
+        Some(Format::LfsPointer) => Fault::new(
+            "is a Git LFS pointer, not the data: the file was never downloaded",
+            "run `git lfs pull` where the file comes from",
+        ),
+        Some(other) => {
+            let what = format!("is {}, not part of a recording", other.name());
+            Fault::new(what, other.remedy())
+        }
     };
-    Err(RecordingError::of(path, problem))
+    Err(fault.at(path))
 }
 
 #[cfg(test)]

@@ -63,13 +63,13 @@
 pub mod channel;
 pub mod check;
 pub mod description;
-mod error;
 mod file;
 pub mod friction;
 pub mod grid;
 pub mod impact;
 mod least_squares;
 pub mod reader;
+mod remedy;
 pub mod resonance;
 pub mod segments;
 pub mod signal;
@@ -77,5 +77,3 @@ pub mod signal;
 #[cfg(test)]
 mod test_recordings;
 pub mod timeline;
-
-pub use error::{Problem, RecordingError};

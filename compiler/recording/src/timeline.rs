@@ -2,14 +2,15 @@
 
 use crate::{
     description::{Axis, Quantity},
-    error::{Problem, RecordingError},
     reader::Recording,
+    remedy,
     signal::{
         filter::{derivative, low_pass},
         quantile::{mean, median, quantile},
         resample::{Clock, resample},
     },
 };
+use asperity_io::diagnostic::Fault;
 use std::ops::Range;
 
 /// Rate of the timeline and of the models, Hz.
@@ -42,8 +43,8 @@ impl Aligned {
     /// Resamples all channels. `late_s` says for each of them by how much it comes after the others.
     ///
     /// # Errors
-    /// [`RecordingError`] where the files share less than two seconds.
-    pub fn new(recording: &Recording, late_s: &[f64]) -> Result<Self, RecordingError> {
+    /// [`Fault`] where the files share less than two seconds.
+    pub fn new(recording: &Recording, late_s: &[f64]) -> Result<Self, Fault> {
         let clocks: Vec<Clock> = recording
             .channels
             .iter()
@@ -73,10 +74,7 @@ impl Aligned {
                     "all files together cover {shared_s:.2} s; at least {SHORTEST_S} s are needed"
                 )
             };
-            return Err(RecordingError::of(
-                &recording.folder,
-                Problem::TooLittle(what),
-            ));
+            return Err(Fault::new(what, remedy::TOO_LITTLE).at(&recording.folder));
         }
         let clock = Clock {
             start_s,
@@ -162,17 +160,15 @@ impl Timeline {
     /// Derives the timeline from aligned channels, without the stretches that a check found bad.
     ///
     /// # Errors
-    /// [`RecordingError`] where acceleration, load or motion was not recorded.
+    /// [`Fault`] where acceleration, load or motion was not recorded.
     pub fn new(
         recording: &Recording,
         aligned: &Aligned,
         bad: &[Range<usize>],
-    ) -> Result<Self, RecordingError> {
+    ) -> Result<Self, Fault> {
         let missing = |what: &str| {
-            RecordingError::of(
-                &recording.folder,
-                Problem::Missing(format!("the recording has no {what}")),
-            )
+            let what = format!("the recording has no {what}");
+            Fault::new(what, remedy::MISSING).at(&recording.folder)
         };
         let accel: Vec<&Vec<f64>> = recording
             .channels

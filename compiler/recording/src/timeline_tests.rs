@@ -17,7 +17,7 @@ fn pressed(t_s: f64) -> f64 {
     if (1.0..2.5).contains(&t_s) { 1.0 } else { 0.0 }
 }
 
-fn made(mut rest: Vec<crate::channel::Channel>) -> Result<Timeline, RecordingError> {
+fn made(mut rest: Vec<crate::channel::Channel>) -> Result<Timeline, Fault> {
     rest.push(along(Quantity::Acceleration, Axis::Z, |t| {
         9.81 + libm::sin(300.0 * t)
     }));

@@ -2,8 +2,8 @@
 
 use asperity_io::diagnostic::Diagnostic;
 use asperity_recording::{
-    Problem,
     check::{self, Kind, Severity},
+    description::propose,
     reader,
 };
 use std::{fmt::Write as _, fs, path::Path};
@@ -89,12 +89,9 @@ fn a_folder_without_description_gets_a_proposal() {
     fs::write(folder.path().join("all.csv"), table(1, |_, _| {})).expect("written");
     let error = reader::load(folder.path()).expect_err("refused");
     assert!(error.to_string().ends_with("has no recording.toml"));
-    let Problem::NoDescription {
-        proposal: Some(proposal),
-    } = &error.problem
-    else {
-        panic!("no proposal: {error}");
-    };
+    let proposal = propose(folder.path())
+        .expect("readable files")
+        .expect("a proposal");
     assert!(
         proposal.text.contains("column = \"az\"") && proposal.text.contains("clock = \"t\""),
         "{proposal:?}"

@@ -31,10 +31,7 @@ use crate::{
     },
     passes::reduce::{Fidelity, reduce},
     pipeline::{Attachments, Pass, Pipeline, PipelineError, Request},
-    sources::{
-        Source, SourceOutput, Tools,
-        latents::{EditError, equal_loudness},
-    },
+    sources::{Source, SourceOutput, Tools, asset, latents::equal_loudness},
 };
 use asperity_formats::{Asset, EncodeError};
 use asperity_io::diagnostic::Diagnostic;
@@ -82,7 +79,7 @@ pub fn compile(
             return Ok(taken(sourced, &asset, request, pipeline)?);
         }
         // Converted to another rate, it keeps all else.
-        let parsed = Asset::parse(&asset).map_err(EditError::from)?;
+        let parsed = asset::parsed(&asset)?;
         sourced.picture = parsed.preview_png().map(<[u8]>::to_owned);
         sourced.memory = remembered(&parsed)?;
     } else if let Some(memory) = &mut sourced.memory {

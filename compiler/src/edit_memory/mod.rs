@@ -30,8 +30,8 @@ pub use sliders::{AXES, Axis, Sliders};
 
 use crate::learned::{Latent, description::LATENT};
 use asperity_formats::{Asset, EncodeError, assemble, assembled_len};
-use asperity_io::diagnostic::Diagnostic;
-use thiserror::Error;
+use asperity_io::diagnostic::Fault;
+use std::fmt::Display;
 
 const LATENT_TAG: [u8; 4] = *b"late";
 const HISTORY_TAG: [u8; 4] = *b"hist";
@@ -82,27 +82,17 @@ fn latent_body(memory: &Memory) -> Vec<u8> {
     body
 }
 
-/// A history that is not what this version writes, or is damaged.
-#[derive(Debug, Error)]
-#[error("history of {name:?}: {message}")]
-pub struct HistoryError {
-    /// The texture.
-    pub name: String,
-    /// Description of the fault.
-    pub message: String,
-}
-
-impl Diagnostic for HistoryError {
-    fn remedy(&self) -> String {
-        "build the file again from its source".into()
-    }
+/// Returns the fault of a history that is not what this version writes, or is damaged.
+pub(crate) fn damaged(name: &str, what: impl Display) -> Fault {
+    let what = format!("history of {name:?}: {what}");
+    Fault::new(what, "build the file again from its source")
 }
 
 /// Reads the edit memory of an asset; `None` if it has no latent, or a latent of another width than this version's.
 ///
 /// # Errors
-/// [`HistoryError`] for a history that this version does not write.
-pub fn remembered(asset: &Asset<'_>) -> Result<Option<Memory>, HistoryError> {
+/// [`Fault`] for a history that this version does not write.
+pub fn remembered(asset: &Asset<'_>) -> Result<Option<Memory>, Fault> {
     let Some(stored) = asset.latents().filter(|stored| stored.width() == LATENT) else {
         return Ok(None);
     };
@@ -119,10 +109,7 @@ pub fn remembered(asset: &Asset<'_>) -> Result<Option<Memory>, HistoryError> {
     };
     let history: History = match asset.history() {
         None => History::default(),
-        Some(json) => serde_json::from_str(json).map_err(|error| HistoryError {
-            name: asset.name().to_owned(),
-            message: error.to_string(),
-        })?,
+        Some(json) => serde_json::from_str(json).map_err(|error| damaged(asset.name(), error))?,
     };
     Ok(Some(Memory {
         model_crc32: stored.model_crc32,

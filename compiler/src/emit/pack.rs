@@ -1,8 +1,7 @@
 //! Packs many assets into one library.
 
 use asperity_formats::{EncodeError, SceneSurface, library, scene};
-use asperity_io::diagnostic::Diagnostic;
-use thiserror::Error;
+use asperity_io::diagnostic::Fault;
 
 /// An asset and its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -13,25 +12,20 @@ pub struct NamedAsset<'a> {
     pub bytes: &'a [u8],
 }
 
-/// Why assets do not make a library.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[error("the library cannot be written: {0}")]
-pub struct LibraryError(#[from] EncodeError);
-
-impl Diagnostic for LibraryError {
-    fn remedy(&self) -> String {
-        "give every texture a name of its own, and no more than the format counts".into()
-    }
+/// Returns the fault of assets that do not make a library.
+pub(crate) fn unwritable(error: EncodeError) -> Fault {
+    let remedy = "give every texture a name of its own, and no more than the format counts";
+    Fault::new(format!("the library cannot be written: {error}"), remedy)
 }
 
 /// Bytes of a library of these assets, sorted by name, whatever their order.
 ///
 /// # Errors
-/// [`LibraryError`] for two assets of one name, or an asset that does not parse.
-pub fn encode(assets: &[NamedAsset<'_>]) -> Result<Vec<u8>, LibraryError> {
+/// [`Fault`] for two assets of one name, or an asset that does not parse.
+pub fn encode(assets: &[NamedAsset<'_>]) -> Result<Vec<u8>, Fault> {
     let sorted = sorted(assets);
     let mut bytes = vec![0; library::encoded_len(&sorted)];
-    let len = library::encode_library(&sorted, &mut bytes)?;
+    let len = library::encode_library(&sorted, &mut bytes).map_err(unwritable)?;
     bytes.truncate(len);
     Ok(bytes)
 }
@@ -43,11 +37,11 @@ pub fn encode(assets: &[NamedAsset<'_>]) -> Result<Vec<u8>, LibraryError> {
 pub fn encode_scene(
     assets: &[NamedAsset<'_>],
     surfaces: &[SceneSurface],
-) -> Result<Vec<u8>, LibraryError> {
+) -> Result<Vec<u8>, Fault> {
     let sorted = sorted(assets);
     let len = library::encoded_len(&sorted) + scene::encoded_len(surfaces.len());
     let mut bytes = vec![0; len];
-    library::encode_scene(&sorted, surfaces, &mut bytes)?;
+    library::encode_scene(&sorted, surfaces, &mut bytes).map_err(unwritable)?;
     Ok(bytes)
 }
 

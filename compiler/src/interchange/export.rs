@@ -3,9 +3,7 @@
 use super::{
     ahap,
     clip::{Clip, Scale, Take},
-    csv,
-    error::{ExportError, Fault},
-    gltf, haptic, hjif, hmpg,
+    csv, gltf, haptic, hjif, hmpg,
     playback::{PLAY_HZ, Track},
     third_octave::{Loss, Shape, loss},
     wav,
@@ -13,11 +11,12 @@ use super::{
 use crate::{
     emit::raise::raise,
     views::{
-        listen::{self, Gesture, Stroke, perform},
+        listen::{self, Gesture, Stroke, check_taps, not_encoded, perform},
         preview,
     },
 };
 use asperity_formats::Asset;
+use asperity_io::diagnostic::Fault;
 use asperity_texture::signal::resample::resample;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -252,8 +251,9 @@ fn lossy(carried: &[Carried]) -> Option<String> {
 /// The clip that an asset gives.
 ///
 /// # Errors
-/// [`ExportError`].
-pub fn clip(asset: &Asset<'_>, options: &Options) -> Result<(Clip, Vec<String>), ExportError> {
+/// [`Fault`] where strokes and taps cannot be rendered.
+pub fn clip(asset: &Asset<'_>, options: &Options) -> Result<(Clip, Vec<String>), Fault> {
+    check_taps(asset, &options.session, "export")?;
     let performance = perform(asset, &options.session, options.rate_hz, options.seed)?;
     let scales = (options.full_scale_m_s2, options.tap_full_scale_m_s2);
     let clip = Clip::new(asset.name(), &performance, scales.0, scales.1);
@@ -263,17 +263,15 @@ pub fn clip(asset: &Asset<'_>, options: &Options) -> Result<(Clip, Vec<String>),
 /// A texture in a format that takes a clip. The same asset and options give the same bytes.
 ///
 /// # Errors
-/// [`ExportError`].
-pub fn export(
-    asset: &Asset<'_>,
-    format: ClipFormat,
-    options: &Options,
-) -> Result<Exported, ExportError> {
+/// As [`clip`], and for a clip that the format does not hold.
+pub fn export(asset: &Asset<'_>, format: ClipFormat, options: &Options) -> Result<Exported, Fault> {
     let (clip, mut warnings) = clip(asset, options)?;
     let back = |track: Result<Track, Fault>| {
-        track.map_err(|(field, problem)| ExportError::ReadBack {
-            texture: asset.name().to_owned(),
-            problem: format!("{field}: {problem}"),
+        track.map_err(|Fault { field, what, .. }| {
+            let name = asset.name();
+            let what = format!("{name}: what was written does not read back: {field}: {what}");
+            let remedy = "report this with the asset: it is a fault of asperity";
+            Fault::new(what, remedy)
         })
     };
     let (bytes, track) = match format {
@@ -299,12 +297,11 @@ pub fn export(
                 .map_or(0.0, |take| take.end_s(clip.rate_hz));
             let limit_s = hmpg::MAX_TICK as f64 / f64::from(hjif::TIMESCALE) - 0.01;
             if strokes_end_s > limit_s {
-                return Err(ExportError::TooLong {
-                    texture: asset.name().to_owned(),
-                    format: format.name(),
-                    seconds: strokes_end_s,
-                    limit_s,
-                });
+                let (name, format) = (asset.name(), format.name());
+                let what = format!(
+                    "{name}: the clip takes {strokes_end_s:.1} s, and {format} holds {limit_s} s"
+                );
+                return Err(Fault::new(what, "give a shorter --time").usage());
             }
             let document = hmpg::quantised(&hjif::document(&clip));
             let track = back(hjif::play(&document))?;
@@ -317,7 +314,10 @@ pub fn export(
                 .push("glTF holds one level and one frequency of the vibration, and no tap".into());
             (bytes, Some(track.unwrap_or_default()))
         }
-        ClipFormat::Wav => (listen::wav(&wav::samples(&clip))?, None),
+        ClipFormat::Wav => {
+            let bytes = listen::wav(&wav::samples(&clip)).map_err(not_encoded)?;
+            (bytes, None)
+        }
         ClipFormat::Csv => (csv::write(&clip), None),
     };
     let played = match (&track, format) {

@@ -11,7 +11,8 @@ use super::{
     haptic::{pretty, rounded},
     playback::{TonePoint, Track},
 };
-use crate::views::preview::{self, PreviewError};
+use crate::views::preview::{self, not_encoded};
+use asperity_io::diagnostic::Fault;
 use asperity_texture::model::{TextureModel, attributes};
 use base64::{Engine as _, engine::general_purpose::STANDARD};
 use serde_json::{Value, json};
@@ -64,17 +65,13 @@ pub(super) fn played(clip: &Clip, vibration: Vibration) -> Track {
 }
 
 /// Writes a texture with the vibration of a clip.
-pub(super) fn write(
-    texture: &TextureModel,
-    clip: &Clip,
-    size_px: u32,
-) -> Result<Vec<u8>, PreviewError> {
+pub(super) fn write(texture: &TextureModel, clip: &Clip, size_px: u32) -> Result<Vec<u8>, Fault> {
     let picture = preview::draw(texture, size_px)?;
     let image = |png: Vec<u8>| uri("image/png", &png);
     let images = [
-        image(picture.png()?),
-        image(picture.normal_png()?),
-        image(picture.height_png()?),
+        image(picture.png().map_err(not_encoded)?),
+        image(picture.normal_png().map_err(not_encoded)?),
+        image(picture.height_png().map_err(not_encoded)?),
         image(white()),
     ];
     let buffer = square();

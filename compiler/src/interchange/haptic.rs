@@ -8,10 +8,10 @@
 use super::{
     clip::Clip,
     envelope::{envelope, transient_hz},
-    error::{EffectProblem, Fault},
     parse::{bounded, json, time, within},
     playback::{TonePoint, Track, Transient},
 };
+use asperity_io::diagnostic::Fault;
 use serde::{Deserialize, Serialize};
 
 /// Frequencies of the least and of the largest sharpness, Hz.
@@ -201,13 +201,8 @@ pub(crate) fn read(text: &str) -> Result<Track, Fault> {
         patch,
     } = document.version;
     if major != 1 {
-        return Err((
-            "version".into(),
-            EffectProblem::Version {
-                found: format!("{major}.{minor}.{patch}"),
-                expected: "1.x.y",
-            },
-        ));
+        let what = format!("{major}.{minor}.{patch}, 1.x.y expected");
+        return Err(Fault::new(what, "export it again in that version").field("version"));
     }
     let envelopes = document.signals.continuous.envelopes;
     let at =

@@ -7,11 +7,11 @@
 use super::{
     clip::Clip,
     envelope::transient_hz,
-    error::{EffectProblem, Fault},
     haptic::rounded,
-    parse::{MAX_S, bounded, json, within},
+    parse::{MAX_S, bounded, json, too_many, within},
     playback::{CurvePoint, Track, Transient},
 };
+use asperity_io::diagnostic::Fault;
 use asperity_texture::signal::resample::resample;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
@@ -285,7 +285,10 @@ impl<F: Fn() -> String> Place<F> {
         library: &HashMap<i32, &Effect>,
         track: &mut Track,
     ) -> Result<(), Fault> {
-        let refused = |problem| Err(((self.path)(), EffectProblem::Unsupported(problem)));
+        let refused = |what| {
+            let fault = Fault::new(what, "export the effect again without it");
+            Err(fault.field((self.path)()))
+        };
         let keyframes = match effect.effect_type.as_str() {
             BASIS => &effect.keyframes,
             "Reference" => match effect.id.and_then(|id| library.get(&id)) {
@@ -295,12 +298,8 @@ impl<F: Fn() -> String> Place<F> {
             _ => return refused("a composite effect, which is not read"),
         };
         if keyframes.len() > track_room(track) {
-            let problem = EffectProblem::TooMany {
-                what: "keyframes",
-                found: keyframes.len() as f64,
-                limit: track_room(track) as f64,
-            };
-            return Err(((self.path)(), problem));
+            let (found, limit) = (keyframes.len() as f64, track_room(track) as f64);
+            return Err(too_many("keyframes", found, limit).field((self.path)()));
         }
         match band.band_type.as_str() {
             CURVE => self.curve(effect.position, keyframes, track),

@@ -21,7 +21,7 @@
 //! let exported = export(&asset, ClipFormat::Hjif, &options)?;
 //! assert!(exported.bytes.starts_with(b"{"));
 //! assert!(exported.carried[0].loss.is_some()); // of the stroke, in dB
-//! # Ok::<(), asperity::interchange::ExportError>(())
+//! # Ok::<(), asperity_io::diagnostic::Fault>(())
 //! ```
 //!
 //! | file | holds |
@@ -40,7 +40,6 @@ mod c_array;
 mod clip;
 mod csv;
 mod envelope;
-mod error;
 mod export;
 mod gltf;
 pub mod haptic;
@@ -56,10 +55,7 @@ pub mod third_octave;
 mod wav;
 
 pub use clip::{Clip, Scale, Take};
-pub use error::{EffectError, EffectProblem, ExportError};
 pub use export::{
     Carried, ClipFormat, Exported, Format, Language, Options, clip, export, ranges, session,
 };
-pub use source::{
-    SourceError, SourceOptions, SourceText, export_source, header_beside, parse_symbol,
-};
+pub use source::{SourceOptions, SourceText, export_source, header_beside, parse_symbol};

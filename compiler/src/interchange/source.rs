@@ -6,14 +6,16 @@ use super::{
     rust_source,
 };
 use crate::emit::{
-    pack::{LibraryError, NamedAsset, encode, encode_scene},
+    pack::{NamedAsset, encode, encode_scene},
     sections::without_preview,
 };
 use asperity_formats::{EncodeError, Library, SceneSurface};
-use asperity_io::diagnostic::Diagnostic;
+use asperity_io::diagnostic::Fault;
 use serde_json::{Value, json};
-use std::path::{Path, PathBuf};
-use thiserror::Error;
+use std::{
+    error::Error,
+    path::{Path, PathBuf},
+};
 
 /// Before every symbol that is made of a name. No name of the C face begins so, nor will one.
 const PREFIX: &str = "asperity_image";
@@ -67,37 +69,22 @@ pub fn header_beside(language: Language, source: &Path) -> Option<PathBuf> {
     (language == Language::C && is_c).then(|| source.with_extension("h"))
 }
 
-/// Why there is no source text.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[error("{0}")]
-pub enum SourceError {
-    /// The bytes are no asset.
-    Asset(#[from] EncodeError),
-    /// The textures make no library.
-    Library(#[from] LibraryError),
-}
-
-impl Diagnostic for SourceError {
-    fn remedy(&self) -> String {
-        "give an asset or a library that this version of asperity wrote".into()
-    }
-}
-
 /// The bytes of an asset or a library as source text that says what they are. The name is that of the texture, or of
 /// the library's file.
 ///
 /// # Errors
-/// [`SourceError`] for bytes that are neither.
+/// [`Fault`] for bytes that are neither.
 pub fn export_source(
     language: Language,
     name: &str,
     bytes: &[u8],
     options: &SourceOptions<'_>,
-) -> Result<SourceText, SourceError> {
+) -> Result<SourceText, Fault> {
     let image = if options.keep_preview {
         bytes.to_owned()
     } else {
-        without_previews(bytes)?
+        let remedy = "give an asset or a library that this version of asperity wrote";
+        without_previews(bytes).map_err(|error| Fault::new(error, remedy))?
     };
     let symbol = options.symbol.map_or_else(|| symbol(name), str::to_owned);
     let about = [
@@ -128,7 +115,7 @@ pub fn export_source(
 }
 
 /// An asset or a library without previews.
-fn without_previews(bytes: &[u8]) -> Result<Vec<u8>, SourceError> {
+fn without_previews(bytes: &[u8]) -> Result<Vec<u8>, Box<dyn Error>> {
     let Ok(library) = Library::parse(bytes) else {
         return Ok(without_preview(bytes)?);
     };

@@ -2,20 +2,16 @@
 
 use super::{
     description::{FORMAT, LATENT, ModelDescription},
-    error::ModelError,
+    files::wrong_file,
 };
+use asperity_io::diagnostic::Fault;
 
 /// Checks counts, ranges and lengths.
 ///
 /// # Errors
-/// [`ModelError::Description`] with the field.
-pub(super) fn check(description: &ModelDescription) -> Result<(), ModelError> {
-    let fault = |message: String| {
-        Err(ModelError::Description {
-            file: "model.json".into(),
-            message,
-        })
-    };
+/// [`Fault`] with the field.
+pub(super) fn check(description: &ModelDescription) -> Result<(), Fault> {
+    let fault = |what: String| Err(wrong_file("model.json", what));
     if description.format != FORMAT {
         return fault(format!(
             "format: {}, this version reads {FORMAT}",

@@ -2,10 +2,10 @@
 
 use super::{
     description::{GridDescription, TapDescription},
-    error::ModelError,
     model::{LearnedModel, Present},
     texture,
 };
+use asperity_io::diagnostic::Fault;
 use asperity_texture::{
     model::{Gains, ModelGrid, TapBank},
     signal::{
@@ -25,12 +25,12 @@ const LEAST_ZERO: f64 = 1e-3;
 /// A tap bank decoded from an AR grid.
 ///
 /// # Errors
-/// [`ModelError`] when a network fails.
+/// [`Fault`] when a network fails.
 pub fn taps_of_grid(
     model: &LearnedModel,
     grid: &ModelGrid,
     gains: &Gains,
-) -> Result<TapBank, ModelError> {
+) -> Result<TapBank, Fault> {
     let description = model.description();
     let z = model.encode(Present::Ar(&ar_channels(&description.grid, grid)))?;
     let decoded = model.decode_taps(&z)?;

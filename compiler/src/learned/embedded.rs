@@ -1,10 +1,12 @@
 //! The networks inside the binary: a prompt needs no file.
 
 use super::{
-    Files, ModelError,
+    Files,
+    files::wrong_file,
     inference::Backend,
     text::{Vocabulary, WithWords, WordStates, WordTable, minilm::MiniLm},
 };
+use asperity_io::diagnostic::Fault;
 use asperity_model::{
     AR_DECODER, DESCRIPTION, ENCODER, MODEL_CRC32, TAP_DECODER, TEXT_ENCODER, TEXT_PROJECTION,
     VOCABULARY, WORD_ROWS, WORD_VECTORS, WORD_WIDTH,
@@ -28,16 +30,13 @@ pub fn model() -> Files {
 /// all-MiniLM-L6-v2 on a back end, with the table of words beside it.
 ///
 /// # Errors
-/// [`ModelError::Network`] when the back end refuses it.
-pub fn text_encoder(backend: &Backend) -> Result<WithWords<MiniLm>, ModelError> {
+/// [`Fault`] when the back end refuses it.
+pub fn text_encoder(backend: &Backend) -> Result<WithWords<MiniLm>, Fault> {
     let session = match backend {
         Backend::Portable => portable().map(|network| Box::new(network) as Box<dyn Session>),
         Backend::OnnxRuntime => backend.session(TEXT_ENCODER.into()),
     };
-    let session = session.map_err(|message| ModelError::Network {
-        file: "text_encoder.onnx".into(),
-        message,
-    })?;
+    let session = session.map_err(|message| wrong_file("text_encoder.onnx", message))?;
     let table = word_table()?;
     let sentence = MiniLm::new(session, Vocabulary::new(VOCABULARY));
     Ok(WithWords::new(sentence, table))
@@ -62,13 +61,10 @@ pub fn word_states() -> WordStates {
 /// The table of words.
 ///
 /// # Errors
-/// [`ModelError::Network`] when its bytes are no table.
-pub fn word_table() -> Result<WordTable, ModelError> {
+/// [`Fault`] when its bytes are no table.
+pub fn word_table() -> Result<WordTable, Fault> {
     let table = WordTable::new(Vocabulary::new(WORD_ROWS), WORD_VECTORS, WORD_WIDTH);
-    table.map_err(|error| ModelError::Network {
-        file: "words.bin".into(),
-        message: error.to_string(),
-    })
+    table.map_err(|fault| wrong_file("words.bin", fault))
 }
 
 /// Bytes of the text encoder and of the learned model.

@@ -1,8 +1,10 @@
 //! The files of a learned model, embedded or read from a folder.
 
-use super::error::ModelError;
-use asperity_io::input::{self, InputError, Kind};
-use std::{borrow::Cow, path::Path};
+use asperity_io::{
+    diagnostic::Fault,
+    input::{self, Kind},
+};
+use std::{borrow::Cow, fmt::Display, path::Path};
 
 /// The files of a model folder, embedded or read.
 #[derive(Debug, Clone)]
@@ -51,16 +53,15 @@ impl Files {
     /// Reads a model folder.
     ///
     /// # Errors
-    /// [`ModelError::Input`] with the file.
-    pub fn read(folder: &Path) -> Result<Self, ModelError> {
-        let fail = |file, problem| ModelError::Input(InputError { file, problem });
+    /// [`Fault`] with the file.
+    pub fn read(folder: &Path) -> Result<Self, Fault> {
         let bytes = |name: &str| {
             let path = folder.join(name);
-            input::read(&path, Kind::Network).map_err(|problem| fail(path, problem))
+            input::read(&path, Kind::Network).map_err(|problem| Fault::from(problem).at(path))
         };
         let path = folder.join("model.json");
         let description = input::read_text(&path, Kind::Description);
-        let description = description.map_err(|problem| fail(path, problem))?;
+        let description = description.map_err(|problem| Fault::from(problem).at(path))?;
         Ok(Self {
             description: description.into(),
             text_projection: bytes("text_projection.onnx")?.into(),
@@ -70,4 +71,19 @@ impl Files {
             known_crc32: None,
         })
     }
+}
+
+/// Returns the fault of a file of the folder: of its description, or of a network.
+pub(crate) fn wrong_file(file: &str, what: impl Display) -> Fault {
+    let remedy = "write the folder anew with `asperity-train fit`, or leave --model out for the embedded model";
+    Fault::new(what, remedy).at(file)
+}
+
+/// Returns the fault of a text vector of another width than the projection takes.
+pub(crate) fn wrong_width(expected: usize, found: usize) -> Fault {
+    let what = format!(
+        "text_projection.onnx takes vectors of {expected} numbers, the text encoder gives {found}"
+    );
+    let remedy = "train a projection for this encoder: asperity-train fit --text-encoder clip:DIR";
+    Fault::new(what, remedy)
 }

@@ -8,11 +8,10 @@
 //! # Ok::<(), String>(())
 //! ```
 
-use asperity_io::diagnostic::Diagnostic;
+use asperity_io::diagnostic::Fault;
 use asperity_nn::{Bytes, Portable, Session};
-use asperity_onnxruntime::OnnxRuntime;
+use asperity_onnxruntime::{NotFound, OnnxRuntime};
 use std::{borrow::Cow, fmt, num::NonZero, path::Path, str::FromStr, thread};
-use thiserror::Error;
 
 /// Inference back end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -55,34 +54,21 @@ impl fmt::Display for BackendName {
     }
 }
 
-/// ONNX Runtime was asked for and is not installed.
-#[derive(Debug, Error)]
-#[error(transparent)]
-pub struct BackendError(#[from] asperity_onnxruntime::NotFound);
-
-impl BackendError {
-    /// Where ONNX Runtime was looked for.
-    #[must_use]
-    pub fn cause(self) -> asperity_onnxruntime::NotFound {
-        self.0
-    }
-}
-
-impl Diagnostic for BackendError {
-    fn remedy(&self) -> String {
-        format!(
-            "{}, or leave --backend out for the portable engine",
-            self.0.remedy()
-        )
-    }
+/// Returns the fault of a command whose option asks for ONNX Runtime, which is not installed.
+pub fn not_installed(error: NotFound) -> Fault {
+    let remedy = format!(
+        "{}, or leave --backend out for the portable engine",
+        error.remedy()
+    );
+    Fault::new(error, remedy)
 }
 
 impl Backend {
     /// The back end of a name.
     ///
     /// # Errors
-    /// [`BackendError`] when ONNX Runtime is asked for and not installed.
-    pub fn open(name: BackendName) -> Result<Self, BackendError> {
+    /// [`NotFound`] when ONNX Runtime is asked for and not installed.
+    pub fn open(name: BackendName) -> Result<Self, NotFound> {
         match name {
             BackendName::Portable => Ok(Self::Portable),
             BackendName::OnnxRuntime => {

@@ -9,8 +9,7 @@ pub mod complete;
 pub mod description;
 pub mod edges;
 pub mod embedded;
-mod error;
-mod files;
+pub(crate) mod files;
 pub mod friction;
 pub mod inference;
 mod model;
@@ -19,6 +18,5 @@ pub mod text;
 pub mod texture;
 
 pub use certainty::Certainty;
-pub use error::ModelError;
 pub use files::Files;
 pub use model::{Decoded, DecodedGrid, Latent, LearnedModel, Present, Projected};

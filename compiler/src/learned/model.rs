@@ -3,11 +3,11 @@
 use super::{
     check::check,
     description::{LATENT, ModelDescription},
-    error::ModelError,
-    files::Files,
+    files::{Files, wrong_file, wrong_width},
     inference::Backend,
     network::{Input, Network},
 };
+use asperity_io::diagnostic::Fault;
 use asperity_texture::model::Provenance;
 use std::{borrow::Cow, sync::OnceLock};
 
@@ -81,13 +81,10 @@ impl LearnedModel {
     /// Loads the networks that a prompt needs.
     ///
     /// # Errors
-    /// [`ModelError`] with the file and what is wrong in it.
-    pub fn load(files: Files, backend: &Backend) -> Result<Self, ModelError> {
-        let description: ModelDescription =
-            serde_json::from_str(&files.description).map_err(|error| ModelError::Description {
-                file: "model.json".into(),
-                message: error.to_string(),
-            })?;
+    /// [`Fault`] with the file and what is wrong in it.
+    pub fn load(files: Files, backend: &Backend) -> Result<Self, Fault> {
+        let description: ModelDescription = serde_json::from_str(&files.description)
+            .map_err(|error| wrong_file("model.json", error))?;
         check(&description)?;
         let crc32 = files.crc32();
         let network = |file, bytes| Network::load(file, bytes, backend);
@@ -146,8 +143,8 @@ impl LearnedModel {
     /// The latent of a text vector.
     ///
     /// # Errors
-    /// [`ModelError`] for a vector of another width, or when the network fails.
-    pub fn project(&self, vector: &[f32]) -> Result<Projected, ModelError> {
+    /// [`Fault`] for a vector of another width, or when the network fails.
+    pub fn project(&self, vector: &[f32]) -> Result<Projected, Fault> {
         self.projected(&[vector]).map(|mut all| all.remove(0))
     }
 
@@ -155,7 +152,7 @@ impl LearnedModel {
     ///
     /// # Errors
     /// As [`project`](Self::project).
-    pub fn project_all(&self, vectors: &[&[f32]]) -> Result<Vec<Projected>, ModelError> {
+    pub fn project_all(&self, vectors: &[&[f32]]) -> Result<Vec<Projected>, Fault> {
         let mut all = Vec::with_capacity(vectors.len());
         for batch in vectors.chunks(BATCH) {
             all.extend(self.projected(batch)?);
@@ -163,13 +160,10 @@ impl LearnedModel {
         Ok(all)
     }
 
-    fn projected(&self, vectors: &[&[f32]]) -> Result<Vec<Projected>, ModelError> {
+    fn projected(&self, vectors: &[&[f32]]) -> Result<Vec<Projected>, Fault> {
         let expected = self.description.text_encoder.width;
         if let Some(other) = vectors.iter().find(|vector| vector.len() != expected) {
-            return Err(ModelError::Width {
-                expected,
-                found: other.len(),
-            });
+            return Err(wrong_width(expected, other.len()));
         }
         let (count, anchors) = (vectors.len(), self.description.anchors.len());
         let vectors = vectors.concat();
@@ -198,8 +192,8 @@ impl LearnedModel {
     /// zero, so that the decoders' bounds hold.
     ///
     /// # Errors
-    /// [`ModelError::Network`] when a network fails.
-    pub fn decode(&self, z: &Latent) -> Result<Decoded, ModelError> {
+    /// [`Fault`] when a network fails.
+    pub fn decode(&self, z: &Latent) -> Result<Decoded, Fault> {
         self.decoded(std::slice::from_ref(z))
             .map(|mut all| all.remove(0))
     }
@@ -208,7 +202,7 @@ impl LearnedModel {
     ///
     /// # Errors
     /// As [`decode`](Self::decode).
-    pub fn decode_all(&self, latents: &[Latent]) -> Result<Vec<Decoded>, ModelError> {
+    pub fn decode_all(&self, latents: &[Latent]) -> Result<Vec<Decoded>, Fault> {
         let mut all = Vec::with_capacity(latents.len());
         for batch in latents.chunks(BATCH) {
             all.extend(self.decoded(batch)?);
@@ -220,7 +214,7 @@ impl LearnedModel {
     ///
     /// # Errors
     /// As [`decode`](Self::decode).
-    pub fn decode_grid(&self, z: &Latent) -> Result<DecodedGrid, ModelError> {
+    pub fn decode_grid(&self, z: &Latent) -> Result<DecodedGrid, Fault> {
         self.decoded_grids(&bounded(std::slice::from_ref(z)))
             .map(|mut all| all.remove(0))
     }
@@ -229,12 +223,12 @@ impl LearnedModel {
     ///
     /// # Errors
     /// As [`decode`](Self::decode).
-    pub fn decode_taps(&self, z: &Latent) -> Result<Vec<f32>, ModelError> {
+    pub fn decode_taps(&self, z: &Latent) -> Result<Vec<f32>, Fault> {
         self.decoded_taps(&bounded(std::slice::from_ref(z)))
             .map(|mut all| all.remove(0))
     }
 
-    fn decoded(&self, latents: &[Latent]) -> Result<Vec<Decoded>, ModelError> {
+    fn decoded(&self, latents: &[Latent]) -> Result<Vec<Decoded>, Fault> {
         let z = bounded(latents);
         let grids = self.decoded_grids(&z)?.into_iter();
         let decoded = grids.zip(self.decoded_taps(&z)?);
@@ -243,7 +237,7 @@ impl LearnedModel {
             .collect())
     }
 
-    fn decoded_grids(&self, z: &[f32]) -> Result<Vec<DecodedGrid>, ModelError> {
+    fn decoded_grids(&self, z: &[f32]) -> Result<Vec<DecodedGrid>, Fault> {
         let grid = &self.description.grid;
         let (count, bins) = (z.len() / LATENT, grid.speeds_mm_s.len());
         let inputs: [Input<'_>; 1] = [("z", &[count, LATENT], z)];
@@ -256,7 +250,7 @@ impl LearnedModel {
             .collect())
     }
 
-    fn decoded_taps(&self, z: &[f32]) -> Result<Vec<Vec<f32>>, ModelError> {
+    fn decoded_taps(&self, z: &[f32]) -> Result<Vec<Vec<f32>>, Fault> {
         let taps = &self.description.taps;
         let (count, samples) = (z.len() / LATENT, taps.speeds_m_s.len() * taps.samples);
         let inputs: [Input<'_>; 1] = [("z", &[count, LATENT], z)];
@@ -268,8 +262,8 @@ impl LearnedModel {
     /// The mean of the posterior, given the modalities that are present.
     ///
     /// # Errors
-    /// [`ModelError::Network`] when the network fails.
-    pub fn encode(&self, known: Present<'_>) -> Result<Latent, ModelError> {
+    /// [`Fault`] when the network fails.
+    pub fn encode(&self, known: Present<'_>) -> Result<Latent, Fault> {
         let grid = &self.description.grid;
         let taps = &self.description.taps;
         let bins = grid.speeds_mm_s.len();
@@ -291,7 +285,7 @@ impl LearnedModel {
         Ok(latent(&outputs.take("mean", LATENT)?))
     }
 
-    fn encoder(&self) -> Result<&Network, ModelError> {
+    fn encoder(&self) -> Result<&Network, Fault> {
         if let Some(encoder) = self.encoder.get() {
             return Ok(encoder);
         }

@@ -1,6 +1,7 @@
 //! Running a network of the model, and distrusting what comes out.
 
-use super::{error::ModelError, inference::Backend};
+use super::{files::wrong_file, inference::Backend};
+use asperity_io::diagnostic::Fault;
 use asperity_nn::{Session, Tensor};
 use std::borrow::Cow;
 
@@ -17,22 +18,22 @@ impl Network {
     /// Loads a network.
     ///
     /// # Errors
-    /// [`ModelError::Network`] with its file.
+    /// [`Fault`] with its file.
     pub(super) fn load(
         file: &'static str,
         bytes: Cow<'static, [u8]>,
         backend: &Backend,
-    ) -> Result<Self, ModelError> {
+    ) -> Result<Self, Fault> {
         let session = backend.session(bytes);
-        let session = session.map_err(|message| fault(file, message))?;
+        let session = session.map_err(|message| wrong_file(file, message))?;
         Ok(Self { file, session })
     }
 
     /// Runs the network on these inputs.
     ///
     /// # Errors
-    /// [`ModelError::Network`] with its file.
-    pub(super) fn run(&self, inputs: &[Input<'_>]) -> Result<Outputs, ModelError> {
+    /// [`Fault`] with its file.
+    pub(super) fn run(&self, inputs: &[Input<'_>]) -> Result<Outputs, Fault> {
         let tensors: Vec<(&str, Tensor)> = inputs
             .iter()
             .map(|(name, shape, data)| {
@@ -47,7 +48,7 @@ impl Network {
         let all = self.session.run(&inputs);
         Ok(Outputs {
             file: self.file,
-            all: all.map_err(|error| fault(self.file, error.to_string()))?,
+            all: all.map_err(|error| wrong_file(self.file, error))?,
         })
     }
 }
@@ -67,9 +68,9 @@ impl Outputs {
     /// The output of this name, which must be finite and of this length.
     ///
     /// # Errors
-    /// [`ModelError::Network`] with its file.
-    pub(super) fn take(&self, name: &str, length: usize) -> Result<Vec<f32>, ModelError> {
-        let fault = |message: String| fault(self.file, message);
+    /// [`Fault`] with its file.
+    pub(super) fn take(&self, name: &str, length: usize) -> Result<Vec<f32>, Fault> {
+        let fault = |what: String| wrong_file(self.file, what);
         match self.find(name) {
             Some(Tensor::F32 { data, .. }) if data.len() == length => {
                 if data.iter().all(|x| x.is_finite()) {
@@ -89,12 +90,5 @@ impl Outputs {
     fn find(&self, name: &str) -> Option<&Tensor> {
         let mut all = self.all.iter();
         all.find(|(output, _)| output == name).map(|(_, t)| t)
-    }
-}
-
-fn fault(file: &str, message: String) -> ModelError {
-    ModelError::Network {
-        file: file.into(),
-        message,
     }
 }

@@ -2,14 +2,13 @@
 
 use super::{
     cache::Cache,
-    error::{EntryError, LibraryFault},
     facts::Facts,
     lock::Pinned,
     make::Maker,
     manifest::{Manifest, Options, Origin, order},
     report::{Report, Row},
     shard::Shard,
-    spill::{Packed, Slot, Spill},
+    spill::{Packed, Slot, Spill, no_room},
 };
 use crate::{
     edit_memory::AXES,
@@ -24,7 +23,7 @@ use crate::{
     },
 };
 use asperity_formats::Asset;
-use asperity_io::diagnostic::{Failure, Failures, one};
+use asperity_io::diagnostic::{Failure, Failures, Fault, one};
 use rayon::prelude::*;
 use std::{
     path::Path,
@@ -89,7 +88,7 @@ impl<'a> Build<'a> {
     /// Reads what decides the bytes of every texture.
     ///
     /// # Errors
-    /// An [`EntryError`] for every file that cannot be read.
+    /// A [`Fault`] for every file that cannot be read.
     pub fn new(manifest: &'a Manifest, request: &'a Request<'a>) -> Result<Self, Failures> {
         let libraries = OpenLibraries::default();
         let keys = keys(manifest, request, &libraries)?;
@@ -127,7 +126,7 @@ impl<'a> Build<'a> {
     /// any thread.
     ///
     /// # Errors
-    /// An [`EntryError`] for every texture that could not be made. The others are in the cache then.
+    /// A [`Fault`] for every texture that could not be made. The others are in the cache then.
     pub fn run(
         &self,
         open: &dyn Fn() -> Result<PromptCompiler, Failures>,
@@ -145,7 +144,7 @@ impl<'a> Build<'a> {
         let maker = Maker::new(self.manifest, editor.as_ref(), &self.libraries, clock, stop);
         let shared = Mutex::new((Timings::default(), None));
         let together = TOGETHER.min(missing.len().div_ceil(rayon::current_num_threads()));
-        let made: Vec<Result<Texture, EntryError>> = missing
+        let made: Vec<Result<Texture, Fault>> = missing
             .par_chunks(together.max(1))
             .flat_map(|some| {
                 let mut reading = Pipeline::timed(self.request.clock);
@@ -174,15 +173,19 @@ impl<'a> Build<'a> {
         }
         if !failures.is_empty() {
             let is_kept = self.request.cache.is_some() && unwritable.is_none();
-            failures.push(Box::new(LibraryFault::Unfinished {
-                failed: failures.len(),
-                total: self.len(),
-                kept: if is_kept {
-                    "in the cache"
-                } else {
-                    "lost, because there is no cache"
-                },
-            }));
+            let kept = if is_kept {
+                "in the cache"
+            } else {
+                "lost, because there is no cache"
+            };
+            let what = format!(
+                "no library was written: {} of {} textures failed, the others are {kept}",
+                failures.len(),
+                self.len()
+            );
+            let remedy =
+                "correct the textures that failed and build again: only they are compiled then";
+            failures.push(Box::new(Fault::new(what, remedy)));
             return Err(failures);
         }
         let textures: Vec<Texture> = textures.into_iter().flatten().collect();
@@ -232,12 +235,10 @@ impl<'a> Build<'a> {
         maker: &Maker<'_>,
         spill: &Spill,
         shared: &Mutex<(Timings, Option<String>)>,
-    ) -> Result<Texture, EntryError> {
+    ) -> Result<Texture, Fault> {
         let (index, key) = &self.chosen[n];
         let entry = &self.manifest.entries[*index];
-        let made = maker
-            .make(*index)
-            .map_err(|cause| EntryError::new(entry, cause))?;
+        let made = maker.make(*index).map_err(|cause| entry.fault(&*cause))?;
         let (bytes, facts) = (&made.lowered.bytes, Facts::of(&made));
         let kept = match self.request.cache {
             Some(cache) => cache.put(key, bytes, &facts).map_err(|error| {
@@ -246,10 +247,7 @@ impl<'a> Build<'a> {
             }),
             None => Ok(()),
         };
-        let slot = take(spill, bytes).map_err(|error| {
-            let fault = LibraryFault::NoRoom(error.to_string());
-            EntryError::new(entry, fault.into())
-        })?;
+        let slot = take(spill, bytes).map_err(|error| entry.fault(&no_room(error)))?;
         let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
         shared.0.merge(&made.timings);
         if let Err(why) = kept {
@@ -271,12 +269,19 @@ impl<'a> Build<'a> {
             .zip(textures)
             .filter_map(|((index, _), texture)| {
                 let (found, least) = (texture.facts.certainty_level?, least?);
-                let fault = LibraryFault::Unsure { found, least };
-                (found < least)
-                    .then(|| EntryError::new(&self.manifest.entries[*index], fault.into()))
+                if found >= least {
+                    return None;
+                }
+                let what = format!(
+                    "the certainty of the prompt is {:?}, but --min-certainty requires {:?}",
+                    found.to_string(),
+                    least.to_string()
+                );
+                let remedy = "name a material, or see how the prompt is read with `asperity compile PROMPT -o FILE --explain`";
+                Some(self.manifest.entries[*index].fault(&Fault::new(what, remedy)))
             });
-        let mut unsure: Vec<EntryError> = unsure.collect();
-        unsure.sort_by_key(|error| error.place.line);
+        let mut unsure: Vec<Fault> = unsure.collect();
+        unsure.sort_by_key(|fault| fault.line);
         let failures: Failures = unsure
             .into_iter()
             .map(|error| Box::new(error) as _)
@@ -334,7 +339,7 @@ fn keys(
         match content {
             Ok(parts) => sources.push(parts),
             Err(cause) => {
-                failures.push(Box::new(EntryError::new(entry, cause)));
+                failures.push(Box::new(entry.fault(&*cause)));
                 sources.push(None);
             }
         }

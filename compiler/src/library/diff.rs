@@ -1,7 +1,8 @@
 //! Changes between two versions of a library.
 
 use super::{change::Change, loaded_library::LoadedLibrary};
-use asperity_formats::{Asset, FormatError};
+use crate::sources::asset::parsed;
+use asperity_io::diagnostic::Fault;
 use serde::Serialize;
 use std::{collections::BTreeMap, fmt};
 
@@ -22,8 +23,8 @@ pub struct Difference {
 /// names.
 ///
 /// # Errors
-/// [`FormatError`] for an asset that is damaged.
-pub fn diff(old: &LoadedLibrary, new: &LoadedLibrary) -> Result<Difference, FormatError> {
+/// [`Fault`] for an asset that is damaged.
+pub fn diff(old: &LoadedLibrary, new: &LoadedLibrary) -> Result<Difference, Fault> {
     let mut difference = Difference::default();
     if let (false, false, [(name, old)], [(_, new)]) = (
         old.is_library,
@@ -53,11 +54,11 @@ fn named(shelf: &LoadedLibrary) -> BTreeMap<&str, &[u8]> {
 }
 
 impl Difference {
-    fn compare(&mut self, name: &str, old: &[u8], new: &[u8]) -> Result<(), FormatError> {
+    fn compare(&mut self, name: &str, old: &[u8], new: &[u8]) -> Result<(), Fault> {
         let change = if old == new {
             None
         } else {
-            Change::between(&Asset::parse(old)?, &Asset::parse(new)?)
+            Change::between(&parsed(old)?, &parsed(new)?)
         };
         match change {
             Some(change) => {

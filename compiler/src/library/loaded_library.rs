@@ -1,14 +1,16 @@
 //! All textures of a library in memory.
 
-use super::error::{LibraryFault, check_name};
-use crate::emit::{
-    lower::LowerError,
-    pack::{LibraryError, NamedAsset, encode},
-    sections::renamed,
-    textures::{Textures, TexturesError},
+use crate::{
+    emit::{
+        lower::LowerError,
+        pack::{NamedAsset, encode},
+        sections::renamed,
+        textures::{Textures, TexturesError},
+    },
+    name::check_name,
 };
 use asperity_formats::Asset;
-use asperity_io::diagnostic::{Failure, Failures, one};
+use asperity_io::diagnostic::{Failure, Failures, Fault, one};
 use std::path::Path;
 
 /// All textures of a library, or the one of an asset, in order of name. Each is checked.
@@ -62,31 +64,43 @@ impl LoadedLibrary {
     /// Reads a library without a scene, to write another one of its textures.
     ///
     /// # Errors
-    /// As [`open`](Self::open), and [`LibraryFault`] for an asset or a scene.
+    /// As [`open`](Self::open), and [`Fault`] for an asset or a scene.
     pub fn library(file: &Path) -> Result<Self, Failures> {
         let shelf = Self::open(file).map_err(one)?;
         if !shelf.is_library {
-            return Err(one(LibraryFault::NoLibrary(shelf.shown)));
+            let fault = Fault::new("an asset, not a library", "give a library (.aspl)");
+            return Err(one(fault.at(shelf.shown)));
         }
-        if shelf.has_scene {
-            return Err(one(LibraryFault::Scene(shelf.shown)));
-        }
+        shelf.refuse_scene().map_err(one)?;
         Ok(shelf)
+    }
+
+    /// Refuses a library with a scene.
+    ///
+    /// # Errors
+    /// [`Fault`] with the file.
+    pub fn refuse_scene(&self) -> Result<(), Fault> {
+        if !self.has_scene {
+            return Ok(());
+        }
+        let what = "a library with a scene cannot be changed";
+        let remedy = "change its manifest, and build it again with `asperity build`";
+        Err(Fault::new(what, remedy).at(&self.shown))
     }
 
     /// Gives a texture another name, in the index and in its asset, and returns the one that it had.
     ///
     /// # Errors
-    /// [`LibraryFault`] for a name that no texture can have or that another one has, and for a scene.
+    /// [`Fault`] for a name that no texture can have or that another one has, and for a scene.
     pub fn rename(&mut self, index: usize, name: &str) -> Result<String, Failure> {
         check_name(name)?;
-        if self.has_scene {
-            return Err(LibraryFault::Scene(self.shown.clone()).into());
-        }
+        self.refuse_scene()?;
         let mut others = self.textures.iter().enumerate();
         if others.any(|(other, (taken, _))| other != index && taken == name) {
-            let (file, name) = (self.shown.clone(), name.to_owned());
-            return Err(LibraryFault::Taken { file, name }.into());
+            let what = format!("there is already a texture {name:?}");
+            return Err(Fault::new(what, "choose another name")
+                .at(&self.shown)
+                .into());
         }
         let bytes = renamed(&self.textures[index].1, name).map_err(LowerError::from)?;
         let before = std::mem::replace(&mut self.textures[index], (name.to_owned(), bytes));
@@ -96,8 +110,8 @@ impl LoadedLibrary {
     /// The bytes of a file with these textures: a library, or the one asset.
     ///
     /// # Errors
-    /// [`LibraryError`] for an asset that does not parse.
-    pub fn encode(&self) -> Result<Vec<u8>, LibraryError> {
+    /// [`Fault`] for an asset that does not parse.
+    pub fn encode(&self) -> Result<Vec<u8>, Fault> {
         if let ([(_, bytes)], false) = (&self.textures[..], self.is_library) {
             return Ok(bytes.clone());
         }

@@ -2,8 +2,8 @@
 
 use super::manifest::CONFINED_REMEDY;
 use asperity_io::{
-    diagnostic::Diagnostic,
-    input::{self, InputError, InputProblem, Kind, Outside, Reach},
+    diagnostic::Fault,
+    input::{self, InputProblem, Kind, Reach},
     output::{AtomicFile, OutputError},
     toml_error::TomlError,
 };
@@ -12,10 +12,11 @@ use std::{
     fs, io,
     path::{Path, PathBuf},
 };
-use thiserror::Error;
 
 /// Version of the lock file.
 const FORMAT: u32 = 1;
+/// Remedy for a file that this version did not write.
+const WRITE_ANEW: &str = "remove it, and build once without --locked to write it anew";
 
 /// Versions that, with its entry, determine the bytes of every texture.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -43,75 +44,6 @@ pub struct Lock {
     /// The file itself, behind any link that led to it.
     target: PathBuf,
     found: Option<Pinned>,
-}
-
-/// Why a lock does not hold.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum LockError {
-    /// It cannot be read.
-    #[error(transparent)]
-    Input(#[from] InputError),
-    /// It is not what this version writes. Its text is not repeated: a link in its place leads to any file.
-    #[error("{file}:{line}: not what a lock file of asperity has", file = file.display())]
-    Syntax {
-        /// The lock file.
-        file: PathBuf,
-        /// Where it is wrong, 1-based.
-        line: usize,
-    },
-    /// It is a link to a file that is not there, which would be written through it.
-    #[error("{file}: a symbolic link to a file that is not there", file = file.display())]
-    Dangling {
-        /// The lock file.
-        file: PathBuf,
-    },
-    /// It was written by a later version.
-    #[error("{file}: format {found}, this version reads {FORMAT}", file = file.display())]
-    Format {
-        /// The lock file.
-        file: PathBuf,
-        /// Its format.
-        found: u32,
-    },
-    /// It is a link that leaves the folder of a manifest that may not.
-    #[error("{file}: {outside}, and the manifest is confined to its folder", file = file.display())]
-    Outside {
-        /// The lock file.
-        file: PathBuf,
-        /// Reason why the path is outside.
-        outside: Outside,
-    },
-    /// There is none, and one is asked for.
-    #[error("{file}: there is no lock file", file = file.display())]
-    Missing {
-        /// Where it would be.
-        file: PathBuf,
-    },
-    /// Model or versions are not those that it pins.
-    #[error("{file}: {drift}", file = file.display(), drift = drift.join("; "))]
-    Drift {
-        /// The lock file.
-        file: PathBuf,
-        /// Differences from the lock.
-        drift: Vec<String>,
-    },
-}
-
-impl Diagnostic for LockError {
-    fn remedy(&self) -> String {
-        match self {
-            Self::Input(error) => error.remedy(),
-            Self::Syntax { .. } | Self::Format { .. } | Self::Dangling { .. } => {
-                "remove it, and build once without --locked to write it anew".into()
-            }
-            Self::Outside { .. } => CONFINED_REMEDY.into(),
-            Self::Missing { .. } => "build once without --locked, and commit the lock file".into(),
-            Self::Drift { .. } => {
-                "use the pinned model and version, or build without --locked to pin these".into()
-            }
-        }
-    }
 }
 
 #[derive(Debug, Deserialize)]
@@ -151,8 +83,8 @@ impl Lock {
     /// The lock of a manifest: `FILE.lock`, which may not be there.
     ///
     /// # Errors
-    /// [`LockError`] for a lock file that cannot be read.
-    pub fn beside(manifest: &Path) -> Result<Self, LockError> {
+    /// [`Fault`] for a lock file that cannot be read.
+    pub fn beside(manifest: &Path) -> Result<Self, Fault> {
         Self::within(manifest, &Reach::Anywhere)
     }
 
@@ -160,19 +92,21 @@ impl Lock {
     ///
     /// # Errors
     /// As [`beside`](Self::beside), and for a link that leads elsewhere.
-    pub fn within(manifest: &Path, reach: &Reach) -> Result<Self, LockError> {
+    pub fn within(manifest: &Path, reach: &Reach) -> Result<Self, Fault> {
         let mut name = manifest.as_os_str().to_owned();
         name.push(".lock");
         let file = PathBuf::from(name);
         let stated = Path::new(file.file_name().unwrap_or_default());
         if let Err(outside) = reach.check(stated, &file) {
-            return Err(LockError::Outside { file, outside });
+            let what = format!("{outside}, and the manifest is confined to its folder");
+            return Err(Fault::new(what, CONFINED_REMEDY).at(file));
         }
         let text = match input::read_text(&file, Kind::Settings) {
             Ok(text) => text,
             Err(InputProblem::Unreadable(error)) if error.kind() == io::ErrorKind::NotFound => {
                 if fs::symlink_metadata(&file).is_ok() {
-                    return Err(LockError::Dangling { file });
+                    let what = "a symbolic link to a file that is not there";
+                    return Err(Fault::new(what, WRITE_ANEW).at(file));
                 }
                 return Ok(Self {
                     target: file.clone(),
@@ -180,16 +114,17 @@ impl Lock {
                     found: None,
                 });
             }
-            Err(problem) => return Err(InputError { file, problem }.into()),
+            Err(problem) => return Err(Fault::from(problem).at(file)),
         };
-        let wrong = |error: &toml::de::Error| LockError::Syntax {
-            file: file.clone(),
-            line: TomlError::new(&text, error).line,
-        };
-        let raw: Raw = toml::from_str(&text).map_err(|error| wrong(&error))?;
+        // Its text is not repeated: a link in its place leads to any file.
+        let raw: Raw = toml::from_str(&text).map_err(|error| {
+            let line = TomlError::new(&text, &error).line as u64;
+            let fault = Fault::new("not what a lock file of asperity has", WRITE_ANEW);
+            fault.at(&file).line(line)
+        })?;
         if raw.format != FORMAT {
-            let found = raw.format;
-            return Err(LockError::Format { file, found });
+            let what = format!("format {}, this version reads {FORMAT}", raw.format);
+            return Err(Fault::new(what, WRITE_ANEW).at(file));
         }
         // A number that is none differs from every CRC but 0, which no model has.
         let number = |text: &str| u32::from_str_radix(text, 16).unwrap_or(0);
@@ -232,18 +167,19 @@ impl Lock {
     /// Refuses what the lock does not pin, and a lock that is not there.
     ///
     /// # Errors
-    /// [`LockError::Missing`] and [`LockError::Drift`].
-    pub fn hold(&self, now: &Pinned) -> Result<(), LockError> {
-        let file = self.file.clone();
-        if self.found.is_none() {
-            return Err(LockError::Missing { file });
-        }
+    /// [`Fault`] for either.
+    pub fn hold(&self, now: &Pinned) -> Result<(), Fault> {
         let drift = self.drift(now);
-        if drift.is_empty() {
-            Ok(())
+        let fault = if self.found.is_none() {
+            let remedy = "build once without --locked, and commit the lock file";
+            Fault::new("there is no lock file", remedy)
+        } else if drift.is_empty() {
+            return Ok(());
         } else {
-            Err(LockError::Drift { file, drift })
-        }
+            let remedy = "use the pinned model and version, or build without --locked to pin these";
+            Fault::new(drift.join("; "), remedy)
+        };
+        Err(fault.at(&self.file))
     }
 
     /// Writes the lock file where it pins something else, and returns a warning for everything that it pinned before
@@ -293,6 +229,8 @@ impl Lock {
 mod tests {
     use super::*;
 
+    const SYNTAX: &str = "not what a lock file of asperity has";
+
     fn pinned() -> Pinned {
         Pinned {
             asperity: "0.1.0".into(),
@@ -310,10 +248,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let manifest = folder.path().join("library.toml");
         let none = Lock::beside(&manifest).unwrap();
-        assert!(matches!(
-            none.hold(&pinned()),
-            Err(LockError::Missing { .. })
-        ));
+        let error = none.hold(&pinned()).unwrap_err();
+        assert_eq!(error.what, "there is no lock file");
         fs::write(none.file(), none.text(&pinned()).unwrap()).unwrap();
         let lock = Lock::beside(&manifest).unwrap();
         assert!(lock.hold(&pinned()).is_ok() && lock.text(&pinned()).is_none());
@@ -328,7 +264,7 @@ mod tests {
         );
         fs::write(lock.file(), "format = 1\nwhat = 2\n").unwrap();
         let error = Lock::beside(&manifest).unwrap_err();
-        assert!(matches!(error, LockError::Syntax { .. }), "{error}");
+        assert_eq!((error.line, &*error.what), (Some(2), SYNTAX));
     }
 
     /// A link in the place of a lock leads to any file: its text is not shown, and nothing is written through it.
@@ -343,12 +279,12 @@ mod tests {
         for text in ["root:secret:0\n", "secret = 4\n", "format = \"secret\"\n"] {
             fs::write(&other, text).unwrap();
             let error = Lock::beside(&list).unwrap_err();
-            assert!(matches!(error, LockError::Syntax { .. }), "{error}");
+            assert_eq!(error.what, SYNTAX);
             assert!(!error.to_string().contains("secret"), "{error}");
         }
         fs::remove_file(&other).unwrap();
         let error = Lock::beside(&list).unwrap_err();
-        assert!(matches!(error, LockError::Dangling { .. }), "{error}");
+        assert_eq!(error.what, "a symbolic link to a file that is not there");
         // A lock that is kept elsewhere is one.
         let plain = Lock {
             file: other.clone(),

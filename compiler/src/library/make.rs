@@ -7,12 +7,12 @@ use crate::{
     pipeline::{Clock, Pipeline, Request},
     sources::{
         Source, Tools,
-        latents::{EditError, FromLatents, LatentEditor, Part, encode},
+        asset::parsed,
+        latents::{FromLatents, LatentEditor, Part, encode, no_latent},
         libraries::OpenLibraries,
         prompt::PromptError,
     },
 };
-use asperity_formats::Asset;
 use std::{
     collections::HashMap,
     sync::{Mutex, PoisonError, atomic::AtomicBool},
@@ -113,10 +113,8 @@ impl<'a> Maker<'a> {
                 stack.extend(open);
             }
         }
-        let name = || self.manifest.entries[index].name.clone();
-        Ok(self
-            .find(index)
-            .ok_or_else(|| EditError::NoLatent(name()))?)
+        let name = &self.manifest.entries[index].name;
+        Ok(self.find(index).ok_or_else(|| no_latent(name))?)
     }
 
     fn find(&self, index: usize) -> Option<FromLatents> {
@@ -162,7 +160,7 @@ impl<'a> Maker<'a> {
         let sourced = source.model(request, &self.tools(), &mut Pipeline::default())?;
         let mut texture = sourced.texture;
         let memory = match &sourced.asset {
-            Some(bytes) => remembered(&Asset::parse(bytes).map_err(EditError::from)?)?,
+            Some(bytes) => remembered(&parsed(bytes)?)?,
             None => sourced.memory,
         };
         let model = editor.prompt_compiler().model();

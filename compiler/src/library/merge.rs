@@ -1,15 +1,15 @@
 //! Parts of a library become the library.
 
-use super::{error::LibraryFault, loaded_library::LoadedLibrary};
+use super::loaded_library::LoadedLibrary;
 use crate::emit::pack::{NamedAsset, encode};
-use asperity_io::diagnostic::{Failures, one};
+use asperity_io::diagnostic::{Failures, Fault, one};
 use std::collections::BTreeMap;
 
 /// The library of all textures of these libraries: the bytes that one build gives. A texture may be
 /// in several of them if it is the same everywhere.
 ///
 /// # Errors
-/// [`LibraryFault::Differ`] for every name that means different textures.
+/// A [`Fault`] for every name that means different textures.
 pub fn merge(parts: &[LoadedLibrary]) -> Result<Vec<u8>, Failures> {
     let mut all: BTreeMap<&str, (&str, &[u8])> = BTreeMap::new();
     let mut failures: Failures = Vec::new();
@@ -17,11 +17,12 @@ pub fn merge(parts: &[LoadedLibrary]) -> Result<Vec<u8>, Failures> {
         for (name, bytes) in &part.textures {
             let (first, kept) = all.entry(name).or_insert((&part.shown, bytes));
             if kept != bytes {
-                failures.push(Box::new(LibraryFault::Differ {
-                    name: name.clone(),
-                    first: (*first).to_owned(),
-                    second: part.shown.clone(),
-                }));
+                let what = format!(
+                    "{name:?} is in both {first} and {}, but with different contents",
+                    part.shown
+                );
+                let remedy = "rename one of them with `asperity rename`, or build all shards with one version and model";
+                failures.push(Box::new(Fault::new(what, remedy)));
             }
         }
     }

@@ -3,18 +3,18 @@
 use super::{lock::Pinned, manifest::Manifest};
 use crate::{
     learned::{
-        Files, LearnedModel, ModelError, embedded,
-        inference::{Backend, BackendName},
+        Files, LearnedModel, embedded,
+        files::wrong_file,
+        inference::{Backend, BackendName, not_installed},
         text::{TextEncoder, TextEncoderChoice, clip::Clip},
     },
     sources::prompt::{PromptCompiler, reading},
 };
 use asperity_io::{
-    diagnostic::{Diagnostic, Failures, one},
+    diagnostic::{Failures, Fault, one},
     input::{self, InputError, Kind},
 };
 use std::path::{Path, PathBuf};
-use thiserror::Error;
 
 /// Which networks are run, and where.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -27,33 +27,15 @@ pub struct Setup {
     pub backend: BackendName,
 }
 
-/// A manifest asks for networks that do not exist.
-#[derive(Debug, Error)]
-#[error("{file}: defaults.{key}: {message}", file = file.display())]
-struct Unknown {
-    file: PathBuf,
-    key: &'static str,
-    message: String,
-}
-
-impl Diagnostic for Unknown {
-    fn remedy(&self) -> String {
-        "correct the value".into()
-    }
-}
-
 impl Setup {
     /// This one, and that of the manifest where this has the usual ones.
     ///
     /// # Errors
     /// For a text encoder or a back end that the manifest names and that does not exist.
     pub fn within(&self, manifest: &Manifest) -> Result<Self, Failures> {
-        let wrong = |key: &'static str, message: String| {
-            one(Unknown {
-                file: manifest.file.clone(),
-                key,
-                message,
-            })
+        let wrong = |key: &str, message: String| {
+            let fault = Fault::new(message, "correct the value").at(&manifest.file);
+            one(fault.field(format!("defaults.{key}")))
         };
         let stated = &manifest.setup;
         let mut setup = self.clone();
@@ -75,7 +57,7 @@ impl Setup {
     /// # Errors
     /// Where a file cannot be read, does not fit the others, or a library is missing.
     pub fn prompt_compiler(&self) -> Result<PromptCompiler, Failures> {
-        let backend = Backend::open(self.backend).map_err(one)?;
+        let backend = Backend::open(self.backend).map_err(|error| one(not_installed(error)))?;
         if self.model.is_none() && self.text_encoder == TextEncoderChoice::MiniLm {
             return PromptCompiler::embedded(&backend).map_err(one);
         }
@@ -119,12 +101,8 @@ impl Setup {
             name: String,
         }
         let files = self.folder()?;
-        let named: Named = serde_json::from_str(&files.description).map_err(|error| {
-            one(ModelError::Description {
-                file: "model.json".into(),
-                message: error.to_string(),
-            })
-        })?;
+        let named: Named = serde_json::from_str(&files.description)
+            .map_err(|error| one(wrong_file("model.json", error)))?;
         let (text_encoder, text_encoder_crc32) = match &self.text_encoder {
             TextEncoderChoice::MiniLm => {
                 let mut crc = crc32fast::Hasher::new();

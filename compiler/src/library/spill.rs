@@ -1,15 +1,15 @@
 //! Assets that wait for their library: few in memory, many in a temporary file. So the memory of a
 //! build does not grow with what it builds.
 
+use crate::emit::pack::unwritable;
 use asperity_formats::library::{self, IndexedTexture};
+use asperity_io::diagnostic::Fault;
 use std::{
     io::{self, Read as _, Seek as _, SeekFrom, Write},
     path::Path,
     sync::{Mutex, PoisonError},
 };
 use tempfile::SpooledTempFile;
-
-use crate::emit::pack::LibraryError;
 
 /// Bytes that are kept in memory before a temporary file takes them.
 const IN_MEMORY: usize = 16 << 20;
@@ -81,15 +81,23 @@ pub struct Packed {
     spill: Spill,
 }
 
+/// Returns the fault of a temporary file that takes no more.
+pub(crate) fn no_room(error: io::Error) -> Fault {
+    Fault::new(
+        format!("the texture cannot be stored until the library is written: {error}"),
+        "free space beside the output, or in the folder for temporary files if it is `-`",
+    )
+}
+
 impl Packed {
     /// The library of assets in ascending order of name.
     ///
     /// # Errors
-    /// [`LibraryError`] for two assets of one name.
+    /// [`Fault`] for two assets of one name.
     pub(super) fn new<'a>(
         named: impl Iterator<Item = (&'a str, Slot)>,
         spill: Spill,
-    ) -> Result<Self, LibraryError> {
+    ) -> Result<Self, Fault> {
         let (textures, slots): (Vec<IndexedTexture<'_>>, Vec<Slot>) = named
             .map(|(name, slot)| {
                 let Slot {
@@ -104,7 +112,7 @@ impl Packed {
             })
             .unzip();
         let mut index = vec![0; library::encoded_index_len(&textures)];
-        let (_, len) = library::encode_index(&textures, &mut index)?;
+        let (_, len) = library::encode_index(&textures, &mut index).map_err(unwritable)?;
         Ok(Self {
             index,
             len,

@@ -1,13 +1,14 @@
 //! A library becomes several smaller ones.
 
 use super::loaded_library::LoadedLibrary;
-use crate::emit::pack::{LibraryError, NamedAsset, encode};
+use crate::emit::pack::{NamedAsset, encode};
+use asperity_io::diagnostic::Fault;
 
 /// Libraries of neighbouring textures, each as large as the others within one texture.
 ///
 /// # Errors
-/// [`LibraryError`] for an asset that does not parse.
-pub fn split(library: &LoadedLibrary, count: usize) -> Result<Vec<Vec<u8>>, LibraryError> {
+/// [`Fault`] for an asset that does not parse.
+pub fn split(library: &LoadedLibrary, count: usize) -> Result<Vec<Vec<u8>>, Fault> {
     let total = library.textures.len();
     (0..count)
         .map(|part| {

@@ -3,9 +3,8 @@
 use crate::{
     emit::{lower::LowerError, verify::VerifyError},
     passes::rerate,
-    views::preview::PreviewError,
 };
-use asperity_io::diagnostic::Diagnostic;
+use asperity_io::diagnostic::{Diagnostic, Fault};
 use thiserror::Error;
 
 /// The pass that failed, and why.
@@ -37,7 +36,7 @@ pub enum PipelineError {
     },
     /// The preview cannot be drawn.
     #[error(transparent)]
-    Preview(#[from] PreviewError),
+    Preview(#[from] Fault),
     /// The texture does not fit an asset.
     #[error(transparent)]
     Lower(#[from] LowerError),
@@ -74,5 +73,11 @@ impl Diagnostic for PipelineError {
 
     fn is_usage(&self) -> bool {
         matches!(self, Self::Rate(_))
+    }
+}
+
+impl From<PipelineError> for Fault {
+    fn from(error: PipelineError) -> Self {
+        Self::of(&error)
     }
 }

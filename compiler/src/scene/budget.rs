@@ -1,7 +1,6 @@
 //! Cost budget of a scene, and the choice of each texture's fidelity.
 
 use super::{fidelity::Candidate, target::Target};
-use thiserror::Error;
 
 /// Share of a target's clocks that a tick may take unless told otherwise.
 pub const DEFAULT_SHARE: f64 = 0.5;
@@ -46,10 +45,9 @@ pub(super) struct Limits {
 }
 
 /// Why no choice keeps within the limits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Excess {
     /// A texture takes more instructions at every fidelity.
-    #[error("texture {texture} takes {least} instructions at least")]
     Instructions {
         /// Index of the texture.
         texture: usize,
@@ -57,7 +55,6 @@ pub(super) enum Excess {
         least: u64,
     },
     /// All textures take more bytes.
-    #[error("{least} bytes at least")]
     Bytes {
         /// The fewest they can take.
         least: u64,

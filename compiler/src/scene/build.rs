@@ -5,20 +5,19 @@ use super::{
     budget::{self, Budget, Excess, Limits},
     cost::Surfaces,
     description::Description,
-    error::{SceneError, SceneProblem},
     fidelity::{self, Candidate},
     report::Report,
     target::Target,
 };
 use crate::{
     emit::pack,
-    library::{self, EntryError, LibraryFault, manifest::Entry},
+    library::{self, manifest::Entry, no_room},
     passes::reduce::Fidelity,
     pipeline::{Pass, Pipeline, Timings},
     sources::prompt::PromptCompiler,
 };
 use asperity_formats::SceneSurface;
-use asperity_io::diagnostic::{Diagnostic, Failures, one};
+use asperity_io::diagnostic::{Diagnostic, Failures, Fault, one};
 use rayon::prelude::*;
 
 /// A library with its scene, and how the budget was spent.
@@ -41,7 +40,7 @@ pub struct Built {
 /// whole, tried at its fidelities and chosen; one whose fidelity the manifest states keeps it.
 ///
 /// # Errors
-/// What [`library::Build`] says, and [`SceneError`] for a budget that cannot hold.
+/// What [`library::Build`] says, and [`Fault`] for a budget that cannot hold.
 pub fn build(
     scene: &Description,
     budget: &Budget,
@@ -61,8 +60,7 @@ pub fn build(
     let made = made.run(open, done)?;
     let mut pipeline = Pipeline::timed(request.clock);
     pipeline.merge(&made.timings);
-    let unreadable = |error: std::io::Error| one(LibraryFault::NoRoom(error.to_string()));
-    let assets = made.library.assets().map_err(unreadable)?;
+    let assets = made.library.assets().map_err(|error| one(no_room(error)))?;
     let rows = &made.report.textures;
     let kept = assets.into_iter().zip(rows).map(|(bytes, row)| {
         let error_db = row.facts.reduced_db.unwrap_or(0.0);
@@ -122,7 +120,7 @@ fn whole(entry: &mut Entry) {
 }
 
 /// Collects the results of all textures, or the first error.
-fn gathered<T, E: Diagnostic + Send + Sync + 'static>(
+fn gathered<T, E: Diagnostic>(
     order: &[&Entry],
     made: Vec<(Result<T, E>, Pipeline)>,
     pipeline: &mut Pipeline,
@@ -130,7 +128,7 @@ fn gathered<T, E: Diagnostic + Send + Sync + 'static>(
     let mut all = Vec::with_capacity(made.len());
     for (entry, (made, own)) in order.iter().zip(made) {
         pipeline.merge(own.timings());
-        all.push(made.map_err(|cause| one(EntryError::new(entry, cause.into())))?);
+        all.push(made.map_err(|cause| one(entry.fault(&cause)))?);
     }
     Ok(all)
 }
@@ -142,7 +140,7 @@ fn chosen<'a>(
     all: &'a [Vec<Candidate>],
     budget: &Budget,
     target: &Target,
-) -> Result<Vec<&'a Candidate>, SceneError> {
+) -> Result<Vec<&'a Candidate>, Fault> {
     let names: Vec<&str> = order.iter().map(|entry| entry.name.as_str()).collect();
     let fixed = pack::scene_len(&names, scene.surfaces.len()) as u64;
     let limits = Limits {
@@ -151,30 +149,33 @@ fn chosen<'a>(
             .bytes
             .map_or(u64::MAX, |bytes| bytes.saturating_sub(fixed)),
     };
-    let chosen = budget::choose(all, limits).map_err(|excess| match excess {
-        Excess::Instructions { texture, least } => {
-            let entry = order[texture];
-            let problem = SceneProblem::Instructions {
-                name: entry.name.clone(),
-                least,
-                budget: limits.instructions,
-                target: *target,
-            };
-            SceneError {
-                file: scene.manifest.file.clone(),
-                field: String::new(),
-                problem,
+    let chosen = budget::choose(all, limits).map_err(|excess| {
+        let fault = match excess {
+            Excess::Instructions { texture, least } => {
+                let (name, most) = (&order[texture].name, limits.instructions);
+                let what = format!(
+                    "{name:?} takes {least} instructions per tick at its lowest fidelity, {} more than the budget of {most} ({target})",
+                    least - most
+                );
+                let remedy = "give a faster clock, a larger --share or a lower servo_rate_hz, or remove surfaces";
+                Fault::new(what, remedy)
             }
-        }
-        Excess::Bytes { least } => SceneError {
-            file: scene.manifest.file.clone(),
-            field: String::new(),
-            problem: SceneProblem::Bytes {
-                least: least + fixed,
-                budget: budget.bytes.unwrap_or(u64::MAX),
-                textures: order.len(),
-            },
-        },
+            Excess::Bytes { least } => {
+                let (least, most) = (least + fixed, budget.bytes.unwrap_or(u64::MAX));
+                let what = format!(
+                    "the library takes {least} bytes at the lowest fidelities, {} more than the budget of {most} bytes",
+                    least - most
+                );
+                let remedy = match order.len() {
+                    1 => "raise --budget-bytes".into(),
+                    textures => format!(
+                        "raise --budget-bytes, or use fewer than {textures} textures: surfaces can share one"
+                    ),
+                };
+                Fault::new(what, remedy)
+            }
+        };
+        fault.at(&scene.manifest.file)
     })?;
     Ok(all.iter().zip(chosen).map(|(of, at)| &of[at]).collect())
 }
@@ -184,7 +185,7 @@ fn encode(
     worn: &[usize],
     order: &[&Entry],
     chosen: &[Candidate],
-) -> Result<Vec<u8>, SceneError> {
+) -> Result<Vec<u8>, Fault> {
     let named: Vec<pack::NamedAsset<'_>> = order
         .iter()
         .zip(chosen)
@@ -205,9 +206,5 @@ fn encode(
             texture: place(surface.texture).unwrap_or(0) as u16,
         })
         .collect();
-    pack::encode_scene(&named, &surfaces).map_err(|e| SceneError {
-        file: scene.manifest.file.clone(),
-        field: String::new(),
-        problem: e.into(),
-    })
+    pack::encode_scene(&named, &surfaces).map_err(|fault| fault.at(&scene.manifest.file))
 }

@@ -1,14 +1,14 @@
 //! A scene: a manifest with a servo rate, and surfaces that wear its textures.
 
-use super::error::{SceneError, SceneProblem};
 use crate::{library::Manifest, passes::rerate, pipeline::serves, sources::Registry};
 use asperity_formats::{
     Solid,
     limits::{MAX_POSITION_M, MAX_SURFACES, MIN_SOLID_M},
 };
 use asperity_io::{
-    diagnostic::{Failures, one},
-    input::{self, InputError, Kind, Reach},
+    diagnostic::{Failures, Fault, one},
+    input::{self, Kind, Reach},
+    shown::suggestion,
     toml_error::TomlError,
 };
 use serde::Deserialize;
@@ -91,12 +91,8 @@ impl Description {
     /// # Errors
     /// Every fault of its textures, and the first of its surfaces.
     pub fn read(file: &Path) -> Result<Self, Failures> {
-        let text = input::read_text(file, Kind::Scene).map_err(|problem| {
-            one(InputError {
-                file: file.to_owned(),
-                problem,
-            })
-        })?;
+        let text = input::read_text(file, Kind::Scene);
+        let text = text.map_err(|problem| one(Fault::from(problem).at(file)))?;
         Self::within(file, &text, Reach::Anywhere, &Registry::default())
     }
 
@@ -110,13 +106,7 @@ impl Description {
         reach: Reach,
         registry: &Registry,
     ) -> Result<Self, Failures> {
-        let told = |(field, problem): Wrong| {
-            one(SceneError {
-                file: file.to_owned(),
-                field,
-                problem,
-            })
-        };
+        let told = |fault: Fault| one(fault.at(file));
         let scene = RawScene::read(text).map_err(told);
         match Manifest::of_scene(file, text, reach, registry) {
             Ok(manifest) => scene?.wearing(manifest).map_err(told),
@@ -157,9 +147,6 @@ impl Description {
     }
 }
 
-/// A field and what is wrong with it.
-type Wrong = (String, SceneProblem);
-
 /// A surface that was checked, and the name of its texture.
 type Surface = (SurfaceEntry, String);
 
@@ -170,24 +157,28 @@ struct Furnished {
 }
 
 impl RawScene {
-    fn read(text: &str) -> Result<Furnished, Wrong> {
-        let raw: Self = toml::from_str(text).map_err(|e| {
-            let problem = if is_single(text) {
-                SceneProblem::Single("surface")
+    fn read(text: &str) -> Result<Furnished, Fault> {
+        let raw: Self = toml::from_str(text).map_err(|error| {
+            if is_single(text) {
+                let what = "one table in single brackets, but a list of tables is expected";
+                let remedy = "write [[surface]], in double brackets, above each of them";
+                Fault::new(what, remedy).field("surface")
             } else {
-                SceneProblem::Syntax(TomlError::new(text, &e))
-            };
-            (String::new(), problem)
+                let error = TomlError::new(text, &error);
+                Fault::new(error, "see the example in docs/scenes.md")
+            }
         })?;
         let (low, _) = rerate::RATE_RANGE_HZ;
         // Loops faster than a texture can be converted to are multiples of its rate.
         in_range("servo_rate_hz", raw.servo_rate_hz, (low, 20_000.0))?;
         if raw.surface.is_empty() {
-            return Err(("surface".into(), SceneProblem::NoSurface));
+            let remedy = "add a [[surface]] with a texture and a plane, sphere or box";
+            return Err(Fault::new("the scene has no surface", remedy).field("surface"));
         }
         if raw.surface.len() > MAX_SURFACES {
             let count = raw.surface.len();
-            return Err(("surface".into(), SceneProblem::TooMany(count)));
+            let what = format!("{count} surfaces, but a scene has at most 64");
+            return Err(Fault::new(what, "split the scene").field("surface"));
         }
         let surfaces = raw.surface.into_iter().enumerate();
         let surfaces = surfaces.map(|(index, raw)| raw.check(index));
@@ -199,7 +190,7 @@ impl RawScene {
 }
 
 impl Furnished {
-    fn wearing(self, mut manifest: Manifest) -> Result<Description, Wrong> {
+    fn wearing(self, mut manifest: Manifest) -> Result<Description, Fault> {
         let servo_hz = self.servo_rate_hz;
         for entry in &mut manifest.entries {
             let request = &mut entry.options.request;
@@ -208,17 +199,22 @@ impl Furnished {
                 .rate_hz
                 .filter(|rate_hz| !serves(servo_hz, *rate_hz))
             {
+                let what = format!("{rate_hz} Hz does not divide the servo_rate_hz of {servo_hz}");
+                let remedy = "leave the rate out, or state one that divides servo_rate_hz";
                 let field = format!("texture {:?}: rate", entry.name);
-                return Err((field, SceneProblem::Rate { rate_hz, servo_hz }));
+                return Err(Fault::new(what, remedy).field(field));
             }
         }
         let mut surfaces = Vec::with_capacity(self.surfaces.len());
         for (index, (surface, wanted)) in self.surfaces.into_iter().enumerate() {
-            let names = || manifest.entries.iter().map(|entry| &entry.name);
-            let Some(texture) = names().position(|name| *name == wanted) else {
-                let known = names().cloned().collect();
-                let field = format!("surface[{index}].texture");
-                return Err((field, SceneProblem::UnknownTexture { wanted, known }));
+            let names = || manifest.entries.iter().map(|entry| entry.name.as_str());
+            let Some(texture) = names().position(|name| name == wanted) else {
+                let known: Vec<&str> = names().collect();
+                let what = format!("no texture {wanted:?}; the scene has {known:?}");
+                let remedy =
+                    format!("add a [[texture]] with name = {wanted:?}, or correct the name");
+                let fault = Fault::new(what, remedy).suggest(suggestion(&wanted, known));
+                return Err(fault.field(format!("surface[{index}].texture")));
             };
             surfaces.push(SurfaceEntry { texture, ..surface });
         }
@@ -240,7 +236,7 @@ fn is_single(text: &str) -> bool {
 }
 
 impl RawSurface {
-    fn check(self, index: usize) -> Result<Surface, Wrong> {
+    fn check(self, index: usize) -> Result<Surface, Fault> {
         let field = |name: &str| format!("surface[{index}].{name}");
         let place = |name: &str, v: [f64; 3]| vector(&field(name), v, -f64::from(MAX_POSITION_M));
         let size = |name: &str, v: [f64; 3]| vector(&field(name), v, f64::from(MIN_SOLID_M));
@@ -262,14 +258,21 @@ impl RawSurface {
                 center_m: place("box.center_m", cuboid.center_m)?,
                 half_extents_m: size("box.half_extents_m", cuboid.half_extents_m)?,
             },
-            _ => return Err((format!("surface[{index}]"), SceneProblem::Solid)),
+            _ => {
+                let what = "a surface must have exactly one of `plane`, `sphere` and `box`";
+                let remedy =
+                    "give one, such as plane = { point_m = [0, 0, 0], normal = [0, 0, 1] }";
+                return Err(Fault::new(what, remedy).field(format!("surface[{index}]")));
+            }
         };
         let far = f64::from(MAX_POSITION_M);
         let from_m = place("from_m", self.from_m.unwrap_or([-far; 3]))?;
         let to_m = place("to_m", self.to_m.unwrap_or([far; 3]))?;
         for (from, to) in from_m.into_iter().zip(to_m) {
             if from >= to {
-                return Err((field("to_m"), SceneProblem::Region { from, to }));
+                let what = format!("{to} m is not above {from} m of from_m");
+                let remedy = "swap the corners: from_m is the lower one on every axis";
+                return Err(Fault::new(what, remedy).field(field("to_m")));
             }
         }
         let surface = SurfaceEntry {
@@ -282,18 +285,20 @@ impl RawSurface {
     }
 }
 
-fn vector(field: &str, v: [f64; 3], low: f64) -> Result<[f32; 3], Wrong> {
+fn vector(field: &str, v: [f64; 3], low: f64) -> Result<[f32; 3], Fault> {
     for x in v {
         in_range(field, x, (low, f64::from(MAX_POSITION_M)))?;
     }
     Ok(v.map(|x| x as f32))
 }
 
-fn in_range(field: &str, value: f64, (low, high): (f64, f64)) -> Result<(), Wrong> {
+fn in_range(field: &str, value: f64, (low, high): (f64, f64)) -> Result<(), Fault> {
     // A NaN is in no range.
     if (low..=high).contains(&value) {
         Ok(())
     } else {
-        Err((field.into(), SceneProblem::Value { value, low, high }))
+        let what = format!("{value} is not from {low} to {high}");
+        let remedy = "give a number in that range; lengths are in metres";
+        Err(Fault::new(what, remedy).field(field))
     }
 }

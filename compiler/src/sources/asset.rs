@@ -3,7 +3,6 @@
 use super::{
     Kind, ManifestSource, Operand, Source, SourceOutput, Tools,
     key::{Key, Parts},
-    latents::EditError,
     libraries::OpenLibraries,
 };
 use crate::{
@@ -13,7 +12,7 @@ use crate::{
     pipeline::{Pass, Pipeline, Request},
 };
 use asperity_formats::Asset;
-use asperity_io::diagnostic::Failure;
+use asperity_io::diagnostic::{Failure, Fault};
 use std::{path::PathBuf, sync::Arc};
 
 /// `asset` of a manifest.
@@ -62,7 +61,7 @@ impl Source for AssetFile {
         pipeline: &mut Pipeline,
     ) -> Result<SourceOutput, Failure> {
         let bytes = pipeline.run(Pass::Read, || self.bytes(tools))?;
-        let asset = Asset::parse(&bytes).map_err(EditError::from)?;
+        let asset = parsed(&bytes)?;
         let texture = raise(&asset);
         // Bytes that are taken as they are may have a history that this version does not read.
         let memory = remembered(&asset).ok().flatten();
@@ -80,4 +79,9 @@ impl ManifestSource for AssetFile {
         let content = Key::of(&self.bytes(tools)?);
         Ok(parts.text(&name.to_string_lossy()).part(content.bytes()))
     }
+}
+
+/// Parses an asset, of which it does not matter where it was.
+pub(crate) fn parsed(bytes: &[u8]) -> Result<Asset<'_>, Fault> {
+    Asset::parse(bytes).map_err(|error| Fault::new(error, "build the file again from its source"))
 }

@@ -9,14 +9,13 @@ use super::{
 };
 use crate::{passes::reduce::Fidelity, pipeline::Request, views::preview};
 use asperity_io::{
-    diagnostic::{Diagnostic, Failure},
+    diagnostic::{Failure, Fault},
     input::{self, Format, InputError, InputProblem},
 };
 use std::{
     path::{Path, PathBuf},
     sync::Arc,
 };
-use thiserror::Error;
 
 /// `import` of a manifest.
 pub const KIND: Kind = Kind {
@@ -30,17 +29,6 @@ pub const KIND: Kind = Kind {
 
 /// Formats that can be imported.
 const WANTED: &str = "a HaTT material, a model, AHAP, .haptic or HJIF";
-
-/// A file of no format that is known.
-#[derive(Debug, Error)]
-#[error("{}: unknown format; must be {WANTED}", .0.display())]
-struct Unknown(PathBuf);
-
-impl Diagnostic for Unknown {
-    fn remedy(&self) -> String {
-        "correct the path, or convert the file to one of these".into()
-    }
-}
 
 /// Importer of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -127,6 +115,10 @@ fn open(stated: &Stated<'_>) -> Result<Arc<dyn ManifestSource>, Failure> {
             let problem = InputProblem::OtherFormat { format, wanted };
             Err(InputError { file, problem }.into())
         }
-        (None, None) => Err(Unknown(file).into()),
+        (None, None) => {
+            let what = format!("unknown format; must be {WANTED}");
+            let remedy = "correct the path, or convert the file to one of these";
+            Err(Fault::new(what, remedy).at(file).into())
+        }
     }
 }

@@ -2,31 +2,12 @@
 
 use crate::emit::textures::{Textures, TexturesProblem};
 use asperity_formats::Asset;
-use asperity_io::diagnostic::{Diagnostic, Failure};
+use asperity_io::diagnostic::{Failure, Fault};
 use std::{
     collections::HashMap,
     path::{Path, PathBuf},
     sync::{Arc, Mutex, PoisonError},
 };
-use thiserror::Error;
-
-/// A library of several textures in the place of one.
-#[derive(Debug, Error)]
-#[error("{file}: the library has {count} textures, and none is named", file = file.display())]
-struct NoneNamed {
-    file: PathBuf,
-    count: usize,
-}
-
-impl Diagnostic for NoneNamed {
-    fn remedy(&self) -> String {
-        let file = self.file.file_name().unwrap_or_default();
-        format!(
-            "name one of them: asset = \"{}#NAME\"",
-            file.to_string_lossy()
-        )
-    }
-}
 
 /// Libraries that stay open: each holds a file and its index.
 const MOST_OPEN: usize = 16;
@@ -44,10 +25,12 @@ impl OpenLibraries {
         let bytes = source
             .choose(texture)
             .map_err(|error| match error.problem {
-                TexturesProblem::NoneChosen { count } => Failure::from(NoneNamed {
-                    file: file.to_owned(),
-                    count,
-                }),
+                TexturesProblem::NoneChosen { count } => {
+                    let what = format!("the library has {count} textures, and none is named");
+                    let name = file.file_name().unwrap_or_default().to_string_lossy();
+                    let remedy = format!("name one of them: asset = \"{name}#NAME\"");
+                    Failure::from(Fault::new(what, remedy).at(file))
+                }
                 _ => error.into(),
             })?;
         match Asset::parse(&bytes) {

@@ -40,7 +40,7 @@ use crate::{
     pipeline::{Clock, Pipeline, Request, Ringing},
 };
 use asperity_io::{
-    diagnostic::{Diagnostic, Failure},
+    diagnostic::{Failure, Fault},
     input::{self, InputProblem},
 };
 use asperity_texture::model::TextureModel;
@@ -56,7 +56,6 @@ use std::{
         atomic::{AtomicBool, Ordering},
     },
 };
-use thiserror::Error;
 
 /// The origin of a texture, which it reads and models. [`driver::compile`](crate::driver::compile) does
 /// what is the same for all of them.
@@ -137,7 +136,7 @@ impl<'a> Tools<'a> {
     /// # Errors
     /// Where none was given.
     pub fn prompt_compiler(&self) -> Result<&'a PromptCompiler, Failure> {
-        Ok(self.prompt_compiler.ok_or(NoModel)?)
+        Ok(self.prompt_compiler.ok_or_else(no_model)?)
     }
 
     /// The bytes of a file: those that were given under its path, or those that are read.
@@ -158,7 +157,9 @@ impl<'a> Tools<'a> {
     /// Refuses to begin another texture once no more is wanted.
     pub(crate) fn go_on(&self) -> Result<(), Failure> {
         match self.stop {
-            Some(stop) if stop.load(Ordering::Relaxed) => Err(Stopped.into()),
+            Some(stop) if stop.load(Ordering::Relaxed) => {
+                Err(Fault::new("the work was stopped", "start it again").into())
+            }
             _ => Ok(()),
         }
     }
@@ -168,30 +169,13 @@ impl<'a> Tools<'a> {
     /// # Errors
     /// Where none was given.
     pub fn model(&self) -> Result<&'a LearnedModel, Failure> {
-        Ok(self.model.ok_or(NoModel)?)
+        Ok(self.model.ok_or_else(no_model)?)
     }
 }
 
-/// No more is wanted.
-#[derive(Debug, Error)]
-#[error("the work was stopped")]
-struct Stopped;
-
-impl Diagnostic for Stopped {
-    fn remedy(&self) -> String {
-        "start it again".into()
-    }
-}
-
-/// A source needs the learned model.
-#[derive(Debug, Error)]
-#[error("the source needs the learned model, and none is loaded")]
-struct NoModel;
-
-impl Diagnostic for NoModel {
-    fn remedy(&self) -> String {
-        "load one, such as `embedded::model()`".into()
-    }
+fn no_model() -> Fault {
+    let what = "the source needs the learned model, and none is loaded";
+    Fault::new(what, "load one, such as `embedded::model()`")
 }
 
 /// A texture before its passes, and what its source knows of it.

@@ -12,79 +12,19 @@ use asperity_diffusion::{
     },
 };
 use asperity_io::{
-    diagnostic::Diagnostic,
-    input::{self, InputError, InputProblem, Kind, Opened},
+    diagnostic::Fault,
+    input::{self, InputProblem, Kind, Opened},
     shown::plain,
 };
 use asperity_nn::Session;
-use asperity_onnxruntime::NotFound;
 use asperity_preview::EncodeError;
 use asperity_texture::model::TextureModel;
 use std::{
     io,
     path::{Path, PathBuf},
 };
-use thiserror::Error;
 
 pub use asperity_diffusion::{Method, Request};
-
-/// Why there is no picture.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum PictureError {
-    /// ONNX Runtime is not installed.
-    #[error("--diffusion runs on ONNX Runtime: {0}")]
-    Backend(NotFound),
-    /// A part of the folder is not there.
-    #[error("{}: the diffusion folder has no such file", .0.display())]
-    Missing(PathBuf),
-    /// A part cannot be read.
-    #[error(transparent)]
-    Input(#[from] InputError),
-    /// A back end refuses a network.
-    #[error("{}: {message}", file.display())]
-    Network {
-        /// The file.
-        file: PathBuf,
-        /// Message of the back end.
-        message: String,
-        /// Which it is.
-        backend: BackendName,
-    },
-    /// A part is of another model, or fails at work.
-    #[error("{}: {error}", folder.display())]
-    Folder {
-        /// The folder.
-        folder: PathBuf,
-        /// Part and problem.
-        error: Box<DiffusionError>,
-    },
-    /// The picture cannot be encoded.
-    #[error(transparent)]
-    Encode(#[from] EncodeError),
-}
-
-impl Diagnostic for PictureError {
-    fn remedy(&self) -> String {
-        match self {
-            Self::Backend(error) => error.remedy(),
-            Self::Missing(_) => {
-                "export the whole folder with `optimum-cli export onnx --model MODEL \
-                 DIR`; docs/preview.md lists its parts"
-                    .into()
-            }
-            Self::Input(error) => error.remedy(),
-            Self::Network { backend, .. } => match backend {
-                BackendName::Portable => "leave --diffusion-backend out, for ONNX Runtime".into(),
-                BackendName::OnnxRuntime => "export the folder again, all files of a network \
-                     beside each other, or install a newer onnxruntime"
-                    .into(),
-            },
-            Self::Folder { error, .. } => error.remedy(),
-            Self::Encode(_) => "give another --size".into(),
-        }
-    }
-}
 
 /// A model of a folder.
 pub struct Model {
@@ -148,8 +88,8 @@ pub fn files(folder: &Path) -> Vec<PathBuf> {
 /// Opens a folder on a back end.
 ///
 /// # Errors
-/// [`PictureError`] with the file, and what is wrong with it.
-pub fn open(folder: &Path, backend: BackendName) -> Result<Model, PictureError> {
+/// [`Fault`] with the file.
+pub fn open(folder: &Path, backend: BackendName) -> Result<Model, Fault> {
     let parts = [
         MODEL_INDEX,
         SCHEDULER_CONFIG,
@@ -161,13 +101,15 @@ pub fn open(folder: &Path, backend: BackendName) -> Result<Model, PictureError> 
     ];
     // Before gigabytes are read.
     if let Some(missing) = parts.iter().map(|part| folder.join(part)).find(is_missing) {
-        return Err(PictureError::Missing(missing));
+        let remedy = "export the whole folder with `optimum-cli export onnx --model MODEL \
+                      DIR`; docs/preview.md lists its parts";
+        return Err(Fault::new("the diffusion folder has no such file", remedy).at(missing));
     }
-    let text = |part: &str, kind: Kind| -> Result<String, InputError> {
+    let text = |part: &str, kind: Kind| {
         let file = folder.join(part);
-        input::read_text(&file, kind).map_err(|problem| InputError { file, problem })
+        input::read_text(&file, kind).map_err(|problem| Fault::from(problem).at(file))
     };
-    let optional = |part: &str| -> Result<Option<String>, InputError> {
+    let optional = |part: &str| -> Result<Option<String>, Fault> {
         match is_missing(&folder.join(part)) {
             true => Ok(None),
             false => text(part, Kind::DiffusionConfig).map(Some),
@@ -184,7 +126,10 @@ pub fn open(folder: &Path, backend: BackendName) -> Result<Model, PictureError> 
         optional(UNET_CONFIG)?,
         optional(VAE_CONFIG)?,
     );
-    let running = Backend::open(backend).map_err(|error| PictureError::Backend(error.cause()))?;
+    let running = Backend::open(backend).map_err(|error| {
+        let what = format!("--diffusion runs on ONNX Runtime: {error}");
+        Fault::new(what, error.remedy())
+    })?;
     let network = |part: &str| network(&folder.join(part), &running, backend);
     let (model_index, scheduler_config, vocabulary, merges) = texts;
     let (tokenizer_config, unet_config, vae_config) = configs;
@@ -200,14 +145,18 @@ pub fn open(folder: &Path, backend: BackendName) -> Result<Model, PictureError> 
         unet: network(UNET)?,
         vae_decoder: network(VAE_DECODER)?,
     });
+    let diffusion = diffusion.map_err(|error| of_model(folder, &error))?;
     let folder = folder.to_owned();
-    match diffusion {
-        Ok(diffusion) => Ok(Model { folder, diffusion }),
-        Err(error) => Err(PictureError::Folder {
-            folder,
-            error: error.into(),
-        }),
-    }
+    Ok(Model { folder, diffusion })
+}
+
+/// Returns the fault of a part that is of another model, or fails at work.
+fn of_model(folder: &Path, error: &DiffusionError) -> Fault {
+    Fault::new(error, error.remedy()).at(folder)
+}
+
+fn not_encoded(error: EncodeError) -> Fault {
+    Fault::new(error, "give another --size")
 }
 
 /// Only what is not there: a link that leads nowhere is, and reading says why it fails.
@@ -220,15 +169,17 @@ fn network(
     file: &Path,
     running: &Backend,
     backend: BackendName,
-) -> Result<Box<dyn Session>, PictureError> {
-    let unreadable = |problem: InputProblem| {
-        let file = file.to_owned();
-        PictureError::from(InputError { file, problem })
-    };
-    let refused = |message: String| PictureError::Network {
-        file: file.to_owned(),
-        message,
-        backend,
+) -> Result<Box<dyn Session>, Fault> {
+    let unreadable = |problem: InputProblem| Fault::from(problem).at(file);
+    let refused = |message: String| {
+        let remedy = match backend {
+            BackendName::Portable => "leave --diffusion-backend out, for ONNX Runtime",
+            BackendName::OnnxRuntime => {
+                "export the folder again, all files of a network \
+                 beside each other, or install a newer onnxruntime"
+            }
+        };
+        Fault::new(message, remedy).at(file)
     };
     match backend {
         BackendName::Portable => {
@@ -250,18 +201,15 @@ impl Model {
     /// each step with how many are done.
     ///
     /// # Errors
-    /// [`PictureError::Folder`] when a network fails, or gives what is no number.
+    /// [`Fault`] when a network fails, or gives what is no number.
     pub fn draw(
         &self,
         request: Request,
         size_px: Option<u32>,
         on_step: &mut dyn FnMut(usize),
-    ) -> Result<Drawn, PictureError> {
+    ) -> Result<Drawn, Fault> {
         let sampled = self.diffusion.sample(&request, on_step);
-        let sampled = sampled.map_err(|error| PictureError::Folder {
-            folder: self.folder.clone(),
-            error: error.into(),
-        })?;
+        let sampled = sampled.map_err(|error| of_model(&self.folder, &error))?;
         let picture = match size_px {
             Some(size) => sampled.picture.resized(size as usize, request.tile),
             None => sampled.picture,
@@ -294,8 +242,8 @@ impl Drawn {
     /// The picture as PNG with every colour, which says what made it.
     ///
     /// # Errors
-    /// [`PictureError::Encode`] when the encoder fails.
-    pub fn png(&self) -> Result<Vec<u8>, PictureError> {
+    /// [`Fault`] when the encoder fails.
+    pub fn png(&self) -> Result<Vec<u8>, Fault> {
         let prompt = plain(&self.prompt);
         let negative = format!("not: {}", plain(&self.negative));
         let mut texts = vec![
@@ -306,23 +254,16 @@ impl Drawn {
         if !self.negative.is_empty() {
             texts.push(("Comment", negative.as_str()));
         }
-        Ok(asperity_preview::png(
-            &self.picture.pixels,
-            self.size_px(),
-            &texts,
-        )?)
+        asperity_preview::png(&self.picture.pixels, self.size_px(), &texts).map_err(not_encoded)
     }
 
     /// The picture as an asset keeps it: with a palette, as small as one that is drawn.
     ///
     /// # Errors
     /// As [`png`](Self::png).
-    pub fn compact_png(&self) -> Result<Vec<u8>, PictureError> {
+    pub fn compact_png(&self) -> Result<Vec<u8>, Fault> {
         let texts = [("Comment", self.note.as_str())];
-        Ok(asperity_preview::compact_png(
-            &self.picture.pixels,
-            self.size_px(),
-            &texts,
-        )?)
+        asperity_preview::compact_png(&self.picture.pixels, self.size_px(), &texts)
+            .map_err(not_encoded)
     }
 }

@@ -9,53 +9,34 @@
 //!
 //! let png = preview::png(&builtin::texture(), 64)?;
 //! assert_eq!(preview::width(&png), Some(64));
-//! # Ok::<(), preview::PreviewError>(())
+//! # Ok::<(), asperity_io::diagnostic::Fault>(())
 //! ```
 
-use asperity_io::diagnostic::Diagnostic;
+use asperity_io::diagnostic::Fault;
 use asperity_language::words::grade;
-use asperity_preview::{Description, EncodeError, Feel, SizeError};
+use asperity_preview::{Description, EncodeError, Feel};
 use asperity_texture::model::{TextureModel, VertexKind, attributes};
-use thiserror::Error;
 
 pub use asperity_preview::{Picture, SIZE, SIZES, WIDTH_MM};
 
 /// Centroid of a tap where a texture has none, Hz.
 const NO_TAP_HZ: f64 = 800.0;
 
-/// The picture could not be made.
-#[derive(Debug, Error)]
-pub enum PreviewError {
-    /// A size that a picture cannot have.
-    #[error("the preview: {0}")]
-    Size(#[from] SizeError),
-    /// The encoder failed.
-    #[error("the preview: {0}")]
-    Encode(#[from] EncodeError),
-    /// The picture in an asset is none.
-    #[error("the preview in the asset cannot be read: {0}")]
-    Stored(#[from] png::DecodingError),
+/// Returns the fault of a picture that the encoder does not take.
+pub fn not_encoded(error: EncodeError) -> Fault {
+    Fault::new(format!("the preview: {error}"), "compile with --no-preview")
 }
 
-impl Diagnostic for PreviewError {
-    fn remedy(&self) -> String {
-        match self {
-            Self::Size(_) => format!("give {} to {} pixels", SIZES.start(), SIZES.end()),
-            Self::Encode(_) => "compile with --no-preview".into(),
-            Self::Stored(_) => "draw it anew with --redraw".into(),
-        }
-    }
-
-    fn is_usage(&self) -> bool {
-        matches!(self, Self::Size(_))
-    }
+fn unreadable(error: png::DecodingError) -> Fault {
+    let what = format!("the preview in the asset cannot be read: {error}");
+    Fault::new(what, "draw it anew with --redraw")
 }
 
 /// Draws a texture as an asset holds it, `size_px` pixels wide and high.
 ///
 /// # Errors
-/// [`PreviewError::Size`] for a size out of [`SIZES`].
-pub fn draw(texture: &TextureModel, size_px: u32) -> Result<Picture, PreviewError> {
+/// A usage error for a size out of [`SIZES`].
+pub fn draw(texture: &TextureModel, size_px: u32) -> Result<Picture, Fault> {
     let anchors = texture.friction.anchors.iter();
     let nearest: Vec<(&str, f64)> = anchors.map(|a| (a.name.as_str(), a.weight)).collect();
     let prompt = texture.provenance.prompt.as_deref();
@@ -67,15 +48,18 @@ pub fn draw(texture: &TextureModel, size_px: u32) -> Result<Picture, PreviewErro
         feel: feel(texture),
         seed: texture.provenance.seed,
     };
-    Ok(Picture::draw(&description, size_px)?)
+    Picture::draw(&description, size_px).map_err(|error| {
+        let remedy = format!("give {} to {} pixels", SIZES.start(), SIZES.end());
+        Fault::new(format!("the preview: {error}"), remedy).usage()
+    })
 }
 
 /// The picture as an asset keeps it: PNG with a palette.
 ///
 /// # Errors
-/// As [`draw`], and [`PreviewError::Encode`] when the encoder fails.
-pub fn png(texture: &TextureModel, size_px: u32) -> Result<Vec<u8>, PreviewError> {
-    Ok(draw(texture, size_px)?.compact_png()?)
+/// As [`draw`], and when the encoder fails.
+pub fn png(texture: &TextureModel, size_px: u32) -> Result<Vec<u8>, Fault> {
+    draw(texture, size_px)?.compact_png().map_err(not_encoded)
 }
 
 /// Width of a picture that an asset holds, pixels; `None` for what is no PNG, or of a size that no
@@ -106,22 +90,22 @@ const MOST_PIXELS: usize = (*SIZES.end() as usize) * (*SIZES.end() as usize);
 /// Reads the picture of an asset.
 ///
 /// # Errors
-/// [`PreviewError::Stored`] for what is no PNG, or larger than any picture that is drawn.
-pub fn stored(bytes: &[u8]) -> Result<Stored, PreviewError> {
+/// [`Fault`] for what is no PNG, or larger than any picture that is drawn.
+pub fn stored(bytes: &[u8]) -> Result<Stored, Fault> {
     let limits = png::Limits {
         bytes: 16 * MOST_PIXELS,
     };
     let mut decoder = png::Decoder::new_with_limits(std::io::Cursor::new(bytes), limits);
     decoder.set_transformations(png::Transformations::EXPAND | png::Transformations::STRIP_16);
-    let mut reader = decoder.read_info()?;
+    let mut reader = decoder.read_info().map_err(unreadable)?;
     let (width, height) = reader.info().size();
     let length = reader.output_buffer_size();
     let fits = width as usize * height as usize <= MOST_PIXELS;
     let Some(length) = length.filter(|_| fits) else {
-        return Err(png::DecodingError::LimitsExceeded.into());
+        return Err(unreadable(png::DecodingError::LimitsExceeded));
     };
     let mut pixels = vec![0; length];
-    let frame = reader.next_frame(&mut pixels)?;
+    let frame = reader.next_frame(&mut pixels).map_err(unreadable)?;
     let samples = frame.color_type.samples();
     let rgb = pixels[..frame.buffer_size()]
         .chunks(samples)
@@ -211,12 +195,13 @@ mod tests {
             vertex.sigma_m_s2 = 0.0;
         }
         assert!(draw(&silent, 64).is_ok());
-        assert!(matches!(draw(&silent, 63), Err(PreviewError::Size(_))));
+        assert!(draw(&silent, 63).unwrap_err().usage);
     }
 
     #[test]
     fn what_is_no_picture_is_refused() {
         let bytes = lower(&named("cork"), None).unwrap().bytes;
-        assert!(matches!(stored(&bytes), Err(PreviewError::Stored(_))));
+        let fault = stored(&bytes).unwrap_err();
+        assert!(fault.what.contains("cannot be read"), "{fault}");
     }
 }

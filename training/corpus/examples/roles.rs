@@ -45,7 +45,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 record.push(*role as u8);
                 record.extend(state.iter().chain(flags).flat_map(|x| x.to_le_bytes()));
             }
-            Ok::<_, asperity::learned::text::TextError>(record)
+            Ok::<_, asperity_io::diagnostic::Fault>(record)
         })
         .collect();
     let mut file = File::create(output)?;

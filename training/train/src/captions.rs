@@ -100,9 +100,9 @@ impl Captions {
 }
 
 fn vector(encoder: &dyn TextEncoder, text: &str) -> Result<Vec<f32>, FitError> {
-    let encoded = encoder.encode(text).map_err(|source| FitError::Caption {
+    let encoded = encoder.encode(text).map_err(|fault| FitError::Caption {
         caption: text.to_owned(),
-        source,
+        source: fault.into(),
     })?;
     if encoded.vector.len() != encoder.width() {
         return Err(FitError::Width {

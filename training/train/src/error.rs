@@ -1,7 +1,9 @@
 //! Why a model cannot be trained.
 
-use asperity::learned::text::TextError;
-use asperity_io::{diagnostic::Diagnostic, output::OutputError};
+use asperity_io::{
+    diagnostic::{Diagnostic, Fault},
+    output::OutputError,
+};
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -26,7 +28,7 @@ pub enum FitError {
         /// The text.
         caption: String,
         /// Why.
-        source: TextError,
+        source: Box<Fault>,
     },
     /// A text encoder whose vectors are not as wide as it says.
     #[error("text encoder `{encoder}`: a vector of {found} numbers, it says {expected}")]

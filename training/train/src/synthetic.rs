@@ -1,6 +1,6 @@
 //! A small corpus and a text encoder for tests.
 
-use asperity::learned::text::{Encoded, TextEncoder, TextError};
+use asperity::learned::text::{Encoded, TextEncoder};
 use asperity_corpus::{
     BINS, Caption, Corpus, Focus, Instance, Material, ORDER, Rating, TAP_SAMPLES, TAPS,
     UnifiedGrid, reference::LexiconEntry,
@@ -11,6 +11,7 @@ use crate::{
     progress::{EpochLoss, Progress},
     rng::{Purpose, Stream},
 };
+use asperity_io::diagnostic::Fault;
 
 /// Width of [`WordBag`]'s vectors.
 pub(crate) const WIDTH: usize = 24;
@@ -110,7 +111,7 @@ impl TextEncoder for WordBag {
         WIDTH
     }
 
-    fn encode(&self, text: &str) -> Result<Encoded, TextError> {
+    fn encode(&self, text: &str) -> Result<Encoded, Fault> {
         let mut vector = vec![0.0; WIDTH];
         for word in text.split_whitespace() {
             let key = word

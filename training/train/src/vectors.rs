@@ -4,7 +4,8 @@ use crate::{
     error::FitError,
     weights::{self, Table},
 };
-use asperity::learned::text::{Encoded, TextEncoder, TextError};
+use asperity::learned::text::{Encoded, TextEncoder};
+use asperity_io::diagnostic::Fault;
 use serde::{Deserialize, Serialize};
 use std::{
     collections::BTreeMap,
@@ -65,9 +66,9 @@ impl<'a> Remembered<'a> {
             .zip(vectors.chunks(width).map(<[f32]>::to_vec))
             .collect();
         if let Some((text, vector)) = known.first_key_value() {
-            let fresh = encoder.encode(text).map_err(|source| FitError::Caption {
+            let fresh = encoder.encode(text).map_err(|fault| FitError::Caption {
                 caption: text.clone(),
-                source,
+                source: fault.into(),
             })?;
             let apart = fresh.vector.iter().zip(vector).map(|(x, y)| (x - y).abs());
             if apart.fold(0.0, f32::max) > TOLERANCE {
@@ -122,7 +123,7 @@ impl TextEncoder for Remembered<'_> {
     }
 
     /// A remembered text says nothing of its tokens.
-    fn encode(&self, text: &str) -> Result<Encoded, TextError> {
+    fn encode(&self, text: &str) -> Result<Encoded, Fault> {
         let known = self.known().get(text).cloned();
         if let Some(vector) = known {
             return Ok(Encoded {
@@ -152,7 +153,7 @@ mod tests {
         fn width(&self) -> usize {
             WordBag.width()
         }
-        fn encode(&self, text: &str) -> Result<Encoded, TextError> {
+        fn encode(&self, text: &str) -> Result<Encoded, Fault> {
             let mut encoded = WordBag.encode(text)?;
             encoded.vector.reverse();
             Ok(encoded)

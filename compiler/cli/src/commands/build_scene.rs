@@ -14,30 +14,16 @@ use asperity::{
 use asperity_console::Console;
 use asperity_io::{
     clock::now,
-    diagnostic::{Diagnostic, Failures, one},
+    diagnostic::{Failures, Fault, one},
     output::display,
     shown::counted,
 };
-use thiserror::Error;
-
-/// Why the options do not go together.
-#[derive(Debug, Error)]
-#[error("{0} applies only to libraries, but the manifest has a [[surface]]")]
-struct ForLibraries(&'static str);
-
-impl Diagnostic for ForLibraries {
-    fn remedy(&self) -> String {
-        "leave it out, or remove the surfaces".into()
-    }
-
-    fn is_usage(&self) -> bool {
-        true
-    }
-}
 
 pub(crate) fn run(args: &Build, build: BuildFile, console: Console) -> Result<(), Failures> {
     if args.shard.is_some() {
-        return Err(one(ForLibraries("--shard")));
+        let what = "--shard applies only to libraries, but the manifest has a [[surface]]";
+        let remedy = "leave it out, or remove the surfaces";
+        return Err(one(Fault::new(what, remedy).usage()));
     }
     let BuildFile { text, reach, .. } = build;
     let mut description =

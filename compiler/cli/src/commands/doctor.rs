@@ -2,13 +2,13 @@
 
 use crate::cli::Doctor;
 use asperity::learned::{
-    LearnedModel, ModelError, Present, embedded,
-    inference::{Backend, BackendError, BackendName},
+    LearnedModel, Present, embedded,
+    inference::{Backend, BackendName, not_installed},
     text::{TextEncoder, TextEncoderChoice},
 };
 use asperity_console::Console;
 use asperity_io::{
-    diagnostic::{Diagnostic, Failures, one},
+    diagnostic::{Failures, Fault, one},
     realtime::{self, Setting},
     shown::size,
 };
@@ -42,27 +42,11 @@ pub(crate) fn run(args: &Doctor, console: Console) -> Result<(), Failures> {
     };
     printed.map_err(one)?;
     match findings.iter().find(|f| !f.found && asked(f)) {
-        Some(missing) => Err(one(Missing {
-            what: missing.what,
-            detail: missing.detail.clone(),
-            remedy: missing.remedy.clone().unwrap_or_default(),
-        })),
+        Some(missing) => {
+            let remedy = missing.remedy.clone().unwrap_or_default();
+            Err(one(Fault::new(&missing.detail, remedy).field(missing.what)))
+        }
         None => Ok(()),
-    }
-}
-
-/// Something asked for that is not there.
-#[derive(Debug, thiserror::Error)]
-#[error("{what}: {detail}")]
-struct Missing {
-    what: &'static str,
-    detail: String,
-    remedy: String,
-}
-
-impl Diagnostic for Missing {
-    fn remedy(&self) -> String {
-        self.remedy.clone()
     }
 }
 
@@ -70,7 +54,7 @@ impl Diagnostic for Missing {
 const PROBE: &str = "surface";
 
 /// Runs every network once: a file that is there may be cut off, or of another model.
-fn runs(model: &LearnedModel) -> Result<(), ModelError> {
+fn runs(model: &LearnedModel) -> Result<(), Fault> {
     let description = model.description();
     let width = description.text_encoder.width;
     let vector = vec![1.0 / (width as f32).sqrt(); width];
@@ -135,7 +119,7 @@ fn findings(args: &Doctor) -> Vec<Finding> {
         "onnxruntime",
         asperity_onnxruntime::discover()
             .map(|discovery| discovery.to_string())
-            .map_err(|error| (error.to_string(), BackendError::from(error).remedy())),
+            .map_err(|error| (error.to_string(), not_installed(error).remedy.into())),
     ));
     findings.push(clip(args));
     findings
@@ -149,7 +133,7 @@ fn clip(args: &Doctor) -> Finding {
         return check("clip", Err(("no folder given".into(), remedy.into())));
     };
     let opened = Backend::open(args.inference.backend)
-        .map_err(one)
+        .map_err(|error| one(not_installed(error)))
         .and_then(|backend| args.inference.setup().text_encoder(&backend));
     check(
         "clip",

@@ -12,31 +12,12 @@ use asperity::{
 use asperity_console::Console;
 use asperity_formats::Asset;
 use asperity_io::{
-    diagnostic::{Diagnostic, Failures, one},
+    diagnostic::{Failures, Fault, one},
     output::{FileNames, Outputs, display, write_folder_beside},
     shown::{counted, size},
 };
 use serde_json::{Value, json};
 use std::{fmt::Write as _, path::Path};
-use thiserror::Error;
-
-/// An option of source text was given with a format that holds none.
-#[derive(Debug, Error)]
-#[error("{option}: a {format} file has none")]
-struct NoSource {
-    option: &'static str,
-    format: Format,
-}
-
-impl Diagnostic for NoSource {
-    fn is_usage(&self) -> bool {
-        true
-    }
-
-    fn remedy(&self) -> String {
-        format!("give {} with --to c-array or --to rust alone", self.option)
-    }
-}
 
 pub(crate) fn run(args: &Export, console: Console) -> Result<(), Failures> {
     match args.to {
@@ -47,8 +28,9 @@ pub(crate) fn run(args: &Export, console: Console) -> Result<(), Failures> {
                 ("--keep-preview", args.keep_preview),
             ];
             if let Some((option, _)) = given.into_iter().find(|(_, given)| *given) {
-                let format = args.to;
-                return Err(one(NoSource { option, format }));
+                let what = format!("{option}: a {} file has none", args.to);
+                let remedy = format!("give {option} with --to c-array or --to rust alone");
+                return Err(one(Fault::new(what, remedy).usage()));
             }
             clips(args, format, console)
         }

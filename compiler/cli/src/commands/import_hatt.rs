@@ -16,49 +16,11 @@ use asperity::{
 use asperity_console::Console;
 use asperity_io::{
     clock::now,
-    diagnostic::{Diagnostic, Failures, one},
+    diagnostic::{Failures, Fault, one},
     output::{self, FileNames, OutputId, Outputs},
     shown::counted,
 };
 use std::{fmt::Write as _, path::PathBuf};
-use thiserror::Error;
-
-/// A folder was to go into one asset.
-#[derive(Debug, Error)]
-#[error("{}: {} cannot go into the single asset {}", folder.display(), counted(*count, "material", "materials"), output.display())]
-struct ManyIntoOne {
-    folder: PathBuf,
-    count: usize,
-    output: PathBuf,
-}
-
-impl Diagnostic for ManyIntoOne {
-    fn is_usage(&self) -> bool {
-        true
-    }
-
-    fn remedy(&self) -> String {
-        "give a folder, or a library (.aspl), as the output".into()
-    }
-}
-
-/// A single model was requested for several materials, or for a library.
-#[derive(Debug, Error)]
-#[error("{path}: --emit-model needs one material as the input and one asset as the output", path = path.display())]
-struct NoSingleModel {
-    path: PathBuf,
-}
-
-impl Diagnostic for NoSingleModel {
-    fn is_usage(&self) -> bool {
-        true
-    }
-
-    fn remedy(&self) -> String {
-        "give one Models_<name>.xml and an output that ends in .asp, or leave --emit-model out"
-            .into()
-    }
-}
 
 /// Where the assets go: what is one file is open, so that a bad path costs no work.
 enum Target {
@@ -85,16 +47,19 @@ impl Target {
         let names_folder = output.to_string_lossy().ends_with(['/', '\\']) || output.is_dir();
         let is_folder = names_folder || (many && !piped && extension != Some("aspl"));
         if !names_folder && many && extension == Some("asp") {
-            return Err(one(ManyIntoOne {
-                folder: args.input.clone(),
-                count: materials,
-                output: output.clone(),
-            }));
+            let what = format!(
+                "{} cannot go into the single asset {}",
+                counted(materials, "material", "materials"),
+                output.display()
+            );
+            let remedy = "give a folder, or a library (.aspl), as the output";
+            return Err(one(Fault::new(what, remedy).at(&args.input).usage()));
         }
         let is_library = !is_folder && (many || extension == Some("aspl"));
         if (is_folder || is_library) && args.emit_model.is_some() {
-            let path = output.clone();
-            return Err(one(NoSingleModel { path }));
+            let what = "--emit-model needs one material as the input and one asset as the output";
+            let remedy = "give one Models_<name>.xml and an output that ends in .asp, or leave --emit-model out";
+            return Err(one(Fault::new(what, remedy).at(output).usage()));
         }
         if is_folder {
             return Ok(Self::Folder(output.clone()));

@@ -14,13 +14,11 @@ use asperity_console::Console;
 use asperity_formats::Asset;
 use asperity_io::{
     clock::now,
-    diagnostic::{Diagnostic, Failures, alone, one},
+    diagnostic::{Failures, Fault, alone, one},
     output::{OutputId, Outputs},
 };
-use asperity_plot::PlotError;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use thiserror::Error;
 
 /// The request of a command with these options; without a preview option, a preview of the usual size is drawn.
 pub(super) fn request(
@@ -60,17 +58,6 @@ impl<'a> Wanted<'a> {
             report: None,
             reporting,
         }
-    }
-}
-
-/// The sheet could not be drawn.
-#[derive(Debug, Error)]
-#[error("the sheet cannot be drawn: {0}")]
-struct NoSheet(PlotError);
-
-impl Diagnostic for NoSheet {
-    fn remedy(&self) -> String {
-        "leave --plot out".into()
     }
 }
 
@@ -143,7 +130,11 @@ impl<'a> Job<'a> {
     ) -> Result<(), Failures> {
         let mut beside = Vec::new();
         if let Some(file) = self.plot {
-            let sheet = match compiled.sheet().map_err(|error| one(NoSheet(error)))? {
+            let sheet = compiled.sheet().map_err(|error| {
+                let what = format!("the sheet cannot be drawn: {error}");
+                one(Fault::new(what, "leave --plot out"))
+            })?;
+            let sheet = match sheet {
                 Some(sheet) => sheet,
                 None => {
                     let asset = Asset::parse(&compiled.lowered.bytes);

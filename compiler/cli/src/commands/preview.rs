@@ -6,7 +6,7 @@ use asperity::{
     emit::raise::raise,
     views::{
         diffusion::{Request, files, prompt_of},
-        preview::{self, PreviewError, SIZE},
+        preview::{self, SIZE},
     },
 };
 use asperity_console::Console;
@@ -60,7 +60,7 @@ pub(crate) fn run(args: &Preview, console: Console) -> Result<(), Failures> {
         }
         (None, None) => {
             let size_px = args.size.unwrap_or(SIZE);
-            let encoded = |e| one(PreviewError::Encode(e));
+            let encoded = |error| one(preview::not_encoded(error));
             let picture = preview::draw(&raise(&asset), size_px).map_err(one)?;
             let png = picture.png().map_err(encoded)?;
             outputs.fill(color, &png).map_err(one)?;

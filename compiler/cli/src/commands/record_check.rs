@@ -4,72 +4,36 @@ use crate::cli::RecordCheck;
 use asperity::sources::recording;
 use asperity_console::Console;
 use asperity_io::{
-    diagnostic::{Diagnostic, Failures, one},
+    diagnostic::{Failures, Fault, one},
     output::{Outputs, display},
     shown::counted,
 };
 use asperity_recording::{
-    Problem, RecordingError,
     check::{Checked, Severity},
-    description::{FILE_NAME, is_absent, propose},
+    description::{FILE_NAME, is_absent, no_description, propose},
 };
 use serde_json::json;
-use std::path::PathBuf;
-use thiserror::Error;
-
-/// The check found faults; its report has them.
-#[derive(Debug, Error)]
-#[error("{}: {}", folder.display(), counted(*count, "fault", "faults"))]
-struct Faulty {
-    folder: PathBuf,
-    count: usize,
-}
-
-impl Diagnostic for Faulty {
-    fn remedy(&self) -> String {
-        "the report gives a remedy after each arrow; docs/recording-faults.md explains each fault"
-            .into()
-    }
-}
-
-/// There is no draft to write.
-#[derive(Debug, Error)]
-enum NoDraft {
-    #[error("{}: already exists", _0.display())]
-    Exists(PathBuf),
-    #[error("{}: cannot be read as a folder: {_1}", _0.display())]
-    Folder(PathBuf, std::io::Error),
-    #[error("{}: the folder holds no .csv, .tsv, .txt, .wav or .npy file", _0.display())]
-    NoFiles(PathBuf),
-}
-
-impl Diagnostic for NoDraft {
-    fn remedy(&self) -> String {
-        match self {
-            Self::Exists(_) => {
-                "edit it, or remove it to have a new draft written; without --init it is checked"
-                    .into()
-            }
-            Self::Folder(..) => "give the folder that holds the sensor files".into(),
-            Self::NoFiles(_) => "copy the sensor files into the folder first".into(),
-        }
-    }
-}
 
 /// Writes the draft of a description.
 fn init(args: &RecordCheck, console: Console) -> Result<(), Failures> {
-    std::fs::read_dir(&args.folder)
-        .map_err(|error| one(NoDraft::Folder(args.folder.clone(), error)))?;
+    let refused = |what: &str, remedy: &str| one(Fault::new(what, remedy).at(&args.folder));
+    std::fs::read_dir(&args.folder).map_err(|error| {
+        let what = format!("cannot be read as a folder: {error}");
+        refused(&what, "give the folder that holds the sensor files")
+    })?;
     let path = args.folder.join(FILE_NAME);
     if !is_absent(&args.folder) {
-        return Err(one(NoDraft::Exists(path)));
+        let remedy =
+            "edit it, or remove it to have a new draft written; without --init it is checked";
+        return Err(one(Fault::new("already exists", remedy).at(path)));
     }
     let draft = propose(&args.folder).map_err(one)?;
-    let draft = draft.ok_or_else(|| one(NoDraft::NoFiles(args.folder.clone())))?;
+    let draft = draft.ok_or_else(|| {
+        let what = "the folder holds no .csv, .tsv, .txt, .wav or .npy file";
+        refused(what, "copy the sensor files into the folder first")
+    })?;
     if draft.files == 0 {
-        let proposal = Some(draft);
-        let problem = Problem::NoDescription { proposal };
-        return Err(one(RecordingError::of(&args.folder, problem)));
+        return Err(one(no_description(&args.folder, Some(&draft))));
     }
     let draft = draft.text;
     let mut outputs = Outputs::beside([&args.folder]);
@@ -95,11 +59,10 @@ pub(crate) fn run(args: &RecordCheck, console: Console) -> Result<(), Failures> 
     let checked = match recording::check(&args.folder) {
         Ok((_, checked, _)) => checked,
         Err(error) => {
-            if let Problem::NoDescription {
-                proposal: Some(proposal),
-            } = &error.problem
+            if !args.json
+                && is_absent(&args.folder)
+                && let Ok(Some(proposal)) = propose(&args.folder)
                 && proposal.files > 0
-                && !args.json
             {
                 console.text(&proposal.text).map_err(one)?;
             }
@@ -115,8 +78,9 @@ pub(crate) fn run(args: &RecordCheck, console: Console) -> Result<(), Failures> 
     printed.map_err(one)?;
     let count = faults(&checked);
     if count > 0 {
-        let folder = args.folder.clone();
-        return Err(one(Faulty { folder, count }));
+        let remedy = "the report gives a remedy after each arrow; docs/recording-faults.md explains each fault";
+        let fault = Fault::new(counted(count, "fault", "faults"), remedy);
+        return Err(one(fault.at(&args.folder)));
     }
     Ok(())
 }

@@ -12,11 +12,11 @@ pub use verdict::{Checked, Finding, Kind, Severity};
 
 use crate::{
     description::{Axis, Meaning, Quantity, meaning},
-    error::RecordingError,
     reader::Recording,
     signal::quantile::mean,
     timeline::{Aligned, Timeline},
 };
+use asperity_io::diagnostic::Fault;
 use std::ops::Range;
 
 /// Delay that is corrected, s. Less than this is the uncertainty of the correlation.
@@ -29,8 +29,8 @@ const NOTED_JITTER: f64 = 3.0;
 /// Checks a recording and aligns its channels, with the delays between files taken away.
 ///
 /// # Errors
-/// [`RecordingError`] where the files share no time, or a quantity is missing.
-pub fn check(recording: &Recording) -> Result<(Checked, Timeline), RecordingError> {
+/// [`Fault`] where the files share no time, or a quantity is missing.
+pub fn check(recording: &Recording) -> Result<(Checked, Timeline), Fault> {
     let mut findings = clocks(recording);
     let mut late_s = vec![0.0; recording.channels.len()];
     let mut aligned = Aligned::new(recording, &late_s)?;

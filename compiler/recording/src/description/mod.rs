@@ -24,5 +24,5 @@ pub(crate) use propose::TIME_UNITS;
 pub use propose::{Proposal, propose};
 pub use quantity::{GRAVITY_M_S2, Quantity, Unit};
 pub(crate) use read::RATES_HZ;
-pub use read::{FILE_NAME, MAX_BYTES, is_absent, read};
+pub use read::{FILE_NAME, MAX_BYTES, is_absent, no_description, read};
 pub use schema::{Axis, Channel, Column, Description, SensorFile, Tool};

@@ -1,14 +1,15 @@
 //! Reads and checks a description.
 
 use super::{
-    propose::{TIME_UNITS, propose},
+    propose::{Proposal, TIME_UNITS, propose},
     quantity::{Quantity, Unit},
     schema::{Axis, Channel, Column, Description, SensorFile, Tool},
 };
 use crate::{
-    error::{Problem, RecordingError},
     file,
+    remedy::{self, unreadable},
 };
+use asperity_io::diagnostic::Fault;
 use serde::Deserialize;
 use std::{io::Read, path::Path};
 use toml::Spanned;
@@ -70,47 +71,59 @@ pub fn is_absent(folder: &Path) -> bool {
     }
 }
 
+/// Returns the fault of a folder without a description; [`propose`] has read its files for one.
+pub fn no_description(folder: &Path, proposal: Option<&Proposal>) -> Fault {
+    let mut what = "the folder has no recording.toml".to_owned();
+    let remedy = match proposal {
+        Some(Proposal { files: 0, text }) => {
+            what += &format!(", and no file that can be used as it is\n{}", text.trim());
+            "do what is said of each file, then run `asperity record-check --init`"
+        }
+        Some(_) => {
+            "`asperity record-check --init` writes a draft of it into the folder; correct its guesses"
+        }
+        None => "give a folder with recording.toml and CSV, WAV or NumPy files",
+    };
+    Fault::new(what, remedy).at(folder)
+}
+
 /// Reads the description of a folder.
 ///
 /// # Errors
-/// [`RecordingError`] with the line at fault; with a proposal where the folder has none.
-pub fn read(folder: &Path) -> Result<Description, RecordingError> {
+/// [`Fault`] with the line at fault, and [`no_description`] where the folder has none.
+pub fn read(folder: &Path) -> Result<Description, Fault> {
     let path = folder.join(FILE_NAME);
     if !folder.is_dir() {
-        let kind = std::io::Error::other("it is no folder");
-        return Err(RecordingError::of(folder, Problem::Unreadable(kind)));
+        let error = std::io::Error::other("it is no folder");
+        return Err(unreadable(folder)(error));
     }
     if is_absent(folder) {
-        let proposal = propose(folder)?;
-        return Err(RecordingError::of(
-            folder,
-            Problem::NoDescription { proposal },
-        ));
+        return Err(no_description(folder, propose(folder)?.as_ref()));
     }
     let mut text = String::new();
-    let unreadable = |error| RecordingError::of(&path, Problem::Unreadable(error));
     let file = file::open(&path)?;
     let read = file
         .take(MAX_BYTES + 1)
         .read_to_string(&mut text)
-        .map_err(unreadable)?;
+        .map_err(unreadable(&path))?;
     if read as u64 > MAX_BYTES {
-        let problem = Problem::Toml(format!("has more than {MAX_BYTES} bytes"));
-        return Err(RecordingError::of(&path, problem));
+        let what = format!("has more than {MAX_BYTES} bytes");
+        return Err(Fault::new(what, remedy::KEYS).at(path));
     }
     parse(&text, &path)
 }
 
-fn parse(text: &str, path: &Path) -> Result<Description, RecordingError> {
+fn parse(text: &str, path: &Path) -> Result<Description, Fault> {
     let line_of = |offset: usize| 1 + text[..offset.min(text.len())].matches('\n').count() as u64;
-    let raw: RawDescription = toml::from_str(text).map_err(|error| RecordingError {
-        file: path.to_owned(),
-        line: error.span().map(|span| line_of(span.start)),
-        problem: Problem::Toml(error.message().to_owned()),
+    let raw: RawDescription = toml::from_str(text).map_err(|error| {
+        let line = error.span().map(|span| line_of(span.start));
+        Fault::new(error.message(), remedy::KEYS)
+            .at(path)
+            .line(line)
     })?;
-    let field = |offset: usize, field: &'static str, value: String, rule: &str| {
-        let rule = rule.to_owned();
-        RecordingError::at(path, line_of(offset), Problem::Field { field, value, rule })
+    let field = |offset: usize, field: &str, value: String, rule: &str| {
+        let fault = Fault::new(format!("{field} = {value:?} {rule}"), remedy::KEYS);
+        fault.at(path).line(line_of(offset))
     };
     if raw.name.trim().is_empty() || raw.name.len() > 64 {
         return Err(field(0, "name", raw.name, "must have 1 to 64 bytes"));

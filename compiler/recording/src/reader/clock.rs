@@ -7,9 +7,10 @@
 use super::rows;
 use crate::{
     description::RATES_HZ,
-    error::{Problem, RecordingError},
+    remedy,
     signal::{quantile::median, resample::Clock},
 };
+use asperity_io::diagnostic::Fault;
 use std::{collections::VecDeque, path::Path};
 
 /// Rows, and stamps, that tell the rate before gaps are looked for.
@@ -67,26 +68,19 @@ pub(super) struct Seen {
 }
 
 /// Follows the clock of a whole file.
-pub(super) fn follow(path: &Path, column: usize, unit_s: f64) -> Result<Seen, RecordingError> {
+pub(super) fn follow(path: &Path, column: usize, unit_s: f64) -> Result<Seen, Fault> {
     let mut follower = Follower::default();
-    let at = |line, problem| RecordingError::at(path, line, problem);
     rows(path, &[column], &mut |line, row| {
         follower
             .take(line, row[column] * unit_s)
-            .map_err(|problem| at(line, problem))?;
+            .map_err(|fault| fault.at(path).line(line))?;
         if follower.steps.is_none() && follower.has_enough() {
             follower.set_steps();
         }
-        follower
-            .judge(false)
-            .map_err(|(line, problem)| at(line, problem))?;
+        follower.judge(false).map_err(|fault| fault.at(path))?;
         Ok(true)
     })?;
-    follower.finish().map_err(|(line, problem)| RecordingError {
-        file: path.to_owned(),
-        line,
-        problem,
-    })
+    follower.finish().map_err(|fault| fault.at(path))
 }
 
 /// The period of a column by its first rows, in the column's own unit; `None` where it is no clock.
@@ -167,18 +161,18 @@ struct Follower {
 
 impl Follower {
     /// Takes the time of a row.
-    fn take(&mut self, line: u64, at_s: f64) -> Result<(), Problem> {
+    fn take(&mut self, line: u64, at_s: f64) -> Result<(), Fault> {
         if !at_s.is_finite() {
-            return Err(Problem::File {
-                what: "has a row without a time".into(),
-                remedy: "remove the row, or leave `clock` out and give `rate_hz`",
-            });
+            return Err(Fault::new(
+                "has a row without a time",
+                "remove the row, or leave `clock` out and give `rate_hz`",
+            ));
         }
         if let Some(before_s) = self.last_s.filter(|before_s| at_s < *before_s) {
-            return Err(Problem::ClockBackwards {
-                before_s,
-                now_s: at_s,
-            });
+            return Err(Fault::new(
+                format!("the clock goes from {before_s} s to {at_s} s"),
+                "sort the rows by time, or leave `clock` out and give `rate_hz`",
+            ));
         }
         if self.last_s != Some(at_s) {
             let row = self.rows;
@@ -236,7 +230,7 @@ impl Follower {
     }
 
     /// Judges the stamps behind which enough rows are there, or all of them at the end.
-    fn judge(&mut self, end: bool) -> Result<(), (u64, Problem)> {
+    fn judge(&mut self, end: bool) -> Result<(), Fault> {
         let Some(steps) = self.steps else {
             return Ok(());
         };
@@ -250,7 +244,9 @@ impl Follower {
                 let step_s = group.late_s(&before, steps.period) + steps.period;
                 // A clock as slow as this is one in another unit.
                 if missing_s > MAX_GAP_S && steps.period * RATES_HZ.0 <= 1.0 {
-                    return Err((group.line, Problem::Gap { gap_s: step_s }));
+                    let what = format!("the clock jumps by {step_s:.3} s");
+                    let remedy = "split the recording at the gap into two folders";
+                    return Err(Fault::new(what, remedy).line(group.line));
                 }
                 let (row, line) = (group.row, group.line);
                 self.gaps.push(Gap {
@@ -267,22 +263,17 @@ impl Follower {
         Ok(())
     }
 
-    fn finish(mut self) -> Result<Seen, (Option<u64>, Problem)> {
-        let too_little = |what: &str| (None, Problem::TooLittle(what.to_owned()));
+    fn finish(mut self) -> Result<Seen, Fault> {
         if self.rows < 2 {
-            return Err(too_little("has fewer than two rows"));
+            return Err(Fault::new("has fewer than two rows", remedy::TOO_LITTLE));
         }
         let Some(steps) = self.steps.or_else(|| self.set_steps()) else {
-            return Err((
-                None,
-                Problem::File {
-                    what: "has a clock that does not move: all rows have the same time".into(),
-                    remedy: "write time stamps with more digits, or leave `clock` out and give `rate_hz`",
-                },
+            return Err(Fault::new(
+                "has a clock that does not move: all rows have the same time",
+                "write time stamps with more digits, or leave `clock` out and give `rate_hz`",
             ));
         };
-        self.judge(true)
-            .map_err(|(line, problem)| (Some(line), problem))?;
+        self.judge(true)?;
         let (clock, jitter_s) = self.fit.fitted(steps.period);
         Ok(Seen {
             clock,

@@ -9,17 +9,13 @@ pub(super) fn seen(stamps: impl IntoIterator<Item = f64>) -> Result<Seen, String
     for (line, at_s) in (2..).zip(stamps) {
         follower
             .take(line, at_s)
-            .map_err(|problem| problem.to_string())?;
+            .map_err(|fault| fault.to_string())?;
         if follower.steps.is_none() && follower.has_enough() {
             follower.set_steps();
         }
-        follower
-            .judge(false)
-            .map_err(|(_, problem)| problem.to_string())?;
+        follower.judge(false).map_err(|fault| fault.to_string())?;
     }
-    follower
-        .finish()
-        .map_err(|(_, problem)| problem.to_string())
+    follower.finish().map_err(|fault| fault.to_string())
 }
 
 #[test]

@@ -3,30 +3,29 @@
 use super::{EachRow, Header, Remark};
 use crate::{
     description::is_unit,
-    error::{Problem, RecordingError},
     file,
+    remedy::{self, unreadable},
 };
-use asperity_io::table::{Table, TableError, TableProblem};
+use asperity_io::{
+    diagnostic::Fault,
+    table::{Table, TableError, TableProblem},
+};
 use std::{fs::File, path::Path};
 
-fn open(path: &Path) -> Result<Table<File>, RecordingError> {
+fn open(path: &Path) -> Result<Table<File>, Fault> {
     Table::open(file::open(path)?, &is_unit).map_err(|error| fault(path, error))
 }
 
-fn fault(path: &Path, error: TableError) -> RecordingError {
-    let problem = match error.problem {
-        TableProblem::Unreadable(error) => Problem::Unreadable(error),
-        TableProblem::Damaged { what, remedy } => Problem::File { what, remedy },
-        other => Problem::Format(other.to_string()),
+fn fault(path: &Path, error: TableError) -> Fault {
+    let fault = match error.problem {
+        TableProblem::Unreadable(error) => unreadable(path)(error),
+        TableProblem::Damaged { what, remedy } => Fault::new(what, remedy),
+        other => Fault::new(other, remedy::FORMAT),
     };
-    RecordingError {
-        file: path.to_owned(),
-        line: error.line,
-        problem,
-    }
+    fault.at(path).line(error.line)
 }
 
-pub(super) fn header(path: &Path) -> Result<Header, RecordingError> {
+pub(super) fn header(path: &Path) -> Result<Header, Fault> {
     let mut table = open(path)?;
     let layout = table.layout().clone();
     // A fault of a row is for the reader of the rows to tell.
@@ -52,7 +51,7 @@ pub(super) fn rows(
     path: &Path,
     wanted: &[usize],
     each: &mut EachRow<'_>,
-) -> Result<Option<Remark>, RecordingError> {
+) -> Result<Option<Remark>, Fault> {
     let mut table = open(path)?;
     let columns = table.layout().columns.clone();
     let width = columns.len();
@@ -64,11 +63,14 @@ pub(super) fn rows(
                 Some(number) => number,
                 None if !is_wanted[column] => f64::NAN,
                 None => {
-                    let problem = Problem::NotANumber {
-                        column: columns[column].clone(),
-                        value: row.text(column).chars().take(40).collect(),
-                    };
-                    return Err(RecordingError::at(path, row.line, problem));
+                    let value: String = row.text(column).chars().take(40).collect();
+                    let what = format!(
+                        "column {:?} holds {value:?}, which is no number",
+                        columns[column]
+                    );
+                    let remedy =
+                        "write numbers with a point; leave a missing value empty or write NaN";
+                    return Err(Fault::new(what, remedy).at(path).line(row.line));
                 }
             };
         }
@@ -88,10 +90,7 @@ pub(super) fn rows(
 mod tests {
     use super::*;
 
-    fn read(
-        content: &str,
-        wanted: &[usize],
-    ) -> Result<(Vec<Vec<f64>>, Option<Remark>), RecordingError> {
+    fn read(content: &str, wanted: &[usize]) -> Result<(Vec<Vec<f64>>, Option<Remark>), Fault> {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("a.csv");
         std::fs::write(&path, content).expect("written");

@@ -4,9 +4,10 @@ use super::{Header, Remark, clock, header, rows};
 use crate::{
     channel::{Channel, Numbers},
     description::{self, Column, Description, Meaning, RATES_HZ, SensorFile, TIME_UNITS},
-    error::{Problem, RecordingError},
+    remedy,
     signal::resample::Clock,
 };
+use asperity_io::diagnostic::Fault;
 use std::path::{Path, PathBuf};
 
 /// Most values that are kept of all channels together: 256 MiB. What comes later is checked, not
@@ -70,8 +71,8 @@ impl FileClock {
 /// Reads all files of a recording.
 ///
 /// # Errors
-/// [`RecordingError`] with the file and the line at fault.
-pub fn load(folder: &Path) -> Result<Recording, RecordingError> {
+/// [`Fault`] with the file and the line at fault.
+pub fn load(folder: &Path) -> Result<Recording, Fault> {
     load_at_most(folder, MAX_KEPT)
 }
 
@@ -79,8 +80,8 @@ pub fn load(folder: &Path) -> Result<Recording, RecordingError> {
 /// read and checked, one at a time.
 ///
 /// # Errors
-/// [`RecordingError`] with the file and the line at fault.
-pub fn load_at_most(folder: &Path, max_kept: usize) -> Result<Recording, RecordingError> {
+/// [`Fault`] with the file and the line at fault.
+pub fn load_at_most(folder: &Path, max_kept: usize) -> Result<Recording, Fault> {
     let description = description::read(folder)?;
     let channels: usize = description
         .files
@@ -103,34 +104,42 @@ pub fn load_at_most(folder: &Path, max_kept: usize) -> Result<Recording, Recordi
     Ok(recording)
 }
 
+/// Ratio of two rates, at least 1.
+fn factor(one: f64, other: f64) -> f64 {
+    (one / other).max(other / one)
+}
+
 /// Where the columns of a file's entry are.
 struct Columns {
     clock: Option<usize>,
     channels: Vec<usize>,
 }
 
-fn columns(path: &Path, file: &SensorFile, header: &Header) -> Result<Columns, RecordingError> {
+fn columns(path: &Path, file: &SensorFile, header: &Header) -> Result<Columns, Fault> {
     let find = |column: &Column| {
-        let problem = match column {
+        let duplicates = match column {
             Column::Index(index) if *index < header.columns.len() => return Ok(*index),
             Column::Name(name) => {
                 let mut found = (0..header.columns.len()).filter(|&n| header.columns[n] == *name);
                 match (found.next(), found.count()) {
                     (Some(index), 0) => return Ok(index),
-                    (Some(_), more) => Some(Problem::DuplicateColumn {
-                        column: name.clone(),
-                        count: 1 + more,
-                    }),
-                    (None, _) => None,
+                    (Some(_), more) => 1 + more,
+                    (None, _) => 0,
                 }
             }
-            Column::Index(_) => None,
+            Column::Index(_) => 0,
         };
-        let problem = problem.unwrap_or_else(|| Problem::NoColumn {
-            column: column.to_string(),
-            found: header.columns.join(", "),
-        });
-        Err(RecordingError::at(path, header.line.max(1), problem))
+        let column = column.to_string();
+        let fault = if duplicates > 0 {
+            let what = format!("has the column {column:?} {duplicates} times");
+            let remedy = "give its number from 0 under `column`, or rename one of them in the file";
+            Fault::new(what, remedy)
+        } else {
+            let found = header.columns.join(", ");
+            let what = format!("has no column {column:?}; it has {found}");
+            Fault::new(what, "name one of these under `column` in recording.toml")
+        };
+        Err(fault.at(path).line(header.line.max(1)))
     };
     Ok(Columns {
         clock: file.clock.as_ref().map(find).transpose()?,
@@ -146,7 +155,7 @@ fn read_file(
     folder: &Path,
     file: &SensorFile,
     keep: usize,
-) -> Result<(FileClock, Vec<Channel>), RecordingError> {
+) -> Result<(FileClock, Vec<Channel>), Fault> {
     let path = folder.join(&file.file);
     let header = header(&path)?;
     let Columns {
@@ -154,7 +163,10 @@ fn read_file(
         channels: columns,
     } = columns(&path, file, &header)?;
     let stated_hz = file.rate_hz.or(header.rate_hz);
-    let entry = || folder.join(description::FILE_NAME);
+    let in_entry = |what: String, remedy: &str| {
+        let description = folder.join(description::FILE_NAME);
+        Fault::new(what, remedy).at(description).line(file.line)
+    };
     let (clock, seen) = match (clock_column, stated_hz) {
         (Some(column), _) => {
             let seen = clock::follow(&path, column, file.clock_s)?;
@@ -165,29 +177,31 @@ fn read_file(
             (Clock { start_s, rate_hz }, None)
         }
         (None, None) => {
-            let problem =
-                Problem::Missing(format!("{:?} has neither `clock` nor `rate_hz`", file.file));
-            return Err(RecordingError::at(entry(), file.line, problem));
+            let what = format!("{:?} has neither `clock` nor `rate_hz`", file.file);
+            return Err(in_entry(what, remedy::MISSING));
         }
     };
     if let (Some(stated_hz), Some(seen)) = (stated_hz, &seen)
         && (seen.clock.rate_hz / stated_hz - 1.0).abs() > MAX_RATE_DIFFERENCE
     {
-        let problem = Problem::RateContradiction {
-            stated_hz,
-            clock_hz: seen.clock.rate_hz,
-        };
-        return Err(RecordingError::at(entry(), file.line, problem));
+        let clock_hz = seen.clock.rate_hz;
+        let what = format!(
+            "rate_hz says {stated_hz} Hz, the clock says {clock_hz:.3} Hz: a factor of {:.4}",
+            factor(stated_hz, clock_hz)
+        );
+        let remedy = "leave `rate_hz` out, or correct `clock_unit`";
+        return Err(in_entry(what, remedy));
     }
     if let (Some(stated_hz), None) = (stated_hz, &seen)
         && let Some((column, clock_hz)) = unused_clock(&path, &header, stated_hz)
     {
-        let problem = Problem::UnusedClock {
-            column,
-            stated_hz,
-            clock_hz,
-        };
-        return Err(RecordingError::of(path, problem));
+        let what = format!(
+            "rate_hz says {stated_hz} Hz, but its column {column:?} is a clock of {clock_hz:.3} Hz: a factor of {:.4}",
+            factor(stated_hz, clock_hz)
+        );
+        let remedy =
+            format!("write clock = {column:?} in place of `rate_hz`, or correct `rate_hz`");
+        return Err(Fault::new(what, remedy).at(path));
     }
     let gaps = seen.as_ref().map_or(&[][..], |seen| &seen.gaps[..]);
     let mut later_gaps = gaps.iter().peekable();
@@ -225,10 +239,7 @@ fn read_file(
         Ok(true)
     })?;
     if count < 2 {
-        return Err(RecordingError::of(
-            &path,
-            Problem::TooLittle("has fewer than two rows".into()),
-        ));
+        return Err(Fault::new("has fewer than two rows", remedy::TOO_LITTLE).at(path));
     }
     let report = FileClock {
         file: file.file.clone(),
@@ -267,8 +278,8 @@ fn read_file(
         .iter()
         .find(|c| c.numbers.missing == c.numbers.count)
     {
-        let problem = Problem::TooLittle(format!("holds no number for {}", channel.label));
-        return Err(RecordingError::of(&path, problem));
+        let what = format!("holds no number for {}", channel.label);
+        return Err(Fault::new(what, remedy::TOO_LITTLE).at(path));
     }
     Ok((report, channels))
 }
@@ -302,7 +313,7 @@ fn unused_clock(path: &Path, header: &Header, stated_hz: f64) -> Option<(String,
 
 /// Finds a clock whose unit cannot be right: by the rates that sensors have, and by the time that the other
 /// files cover.
-fn check_units(recording: &Recording, files: &[SensorFile]) -> Result<(), RecordingError> {
+fn check_units(recording: &Recording, files: &[SensorFile]) -> Result<(), Fault> {
     let durations: Vec<f64> = files
         .iter()
         .zip(&recording.clocks)
@@ -353,20 +364,22 @@ fn check_units(recording: &Recording, files: &[SensorFile]) -> Result<(), Record
         return Ok(());
     };
     let (file, clock) = (&files[index], &recording.clocks[index]);
-    let problem = Problem::ClockUnit {
-        column: file
-            .clock
-            .as_ref()
-            .map(ToString::to_string)
-            .unwrap_or_default(),
-        unit: file.clock_unit,
-        rate_hz: clock.clock_hz.unwrap_or_default(),
-        factor,
+    let column = file
+        .clock
+        .as_ref()
+        .map(ToString::to_string)
+        .unwrap_or_default();
+    let (pace, factor) = match factor > 1.0 {
+        true => ("too slow", factor),
+        false => ("too fast", 1.0 / factor),
     };
-    Err(RecordingError::of(
-        recording.folder.join(&file.file),
-        problem,
-    ))
+    let what = format!(
+        "the clock {column:?} gives {:.4} rows a second if its unit is {}: it is {pace} by a factor of {factor}",
+        clock.clock_hz.unwrap_or_default(),
+        file.clock_unit
+    );
+    let fault = Fault::new(what, "correct `clock_unit` in recording.toml");
+    Err(fault.at(recording.folder.join(&file.file)))
 }
 
 #[cfg(test)]

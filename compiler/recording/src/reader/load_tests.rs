@@ -35,11 +35,11 @@ fn refused(files: &[(f64, u64)]) -> Option<(String, f64)> {
         });
     recording.clocks = clocks.collect();
     let error = check_units(&recording, &recording.description.files).err()?;
-    let file = error.file.file_name()?.to_string_lossy().into_owned();
-    match error.problem {
-        Problem::ClockUnit { factor, .. } => Some((file, factor)),
-        _ => None,
-    }
+    let file = error.file?.file_name()?.to_string_lossy().into_owned();
+    let (slow, factor) = error.what.split_once(" by a factor of ")?;
+    let factor: f64 = factor.parse().ok()?;
+    let is_slow = slow.ends_with("too slow");
+    Some((file, if is_slow { factor } else { 1.0 / factor }))
 }
 
 #[test]

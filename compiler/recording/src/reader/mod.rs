@@ -14,8 +14,9 @@ pub use load::{MAX_KEPT, Recording, load, load_at_most};
 
 use crate::{
     description::{Meaning, in_group, meaning},
-    error::{Problem, RecordingError},
+    remedy,
 };
+use asperity_io::diagnostic::Fault;
 use std::path::Path;
 
 /// The header of a file: all that precedes its first row.
@@ -82,7 +83,7 @@ pub struct Remark {
 
 /// A row: its line from 1 and its values, NaN where one is missing. What comes back says whether to
 /// go on.
-pub(crate) type EachRow<'a> = dyn FnMut(u64, &[f64]) -> Result<bool, RecordingError> + 'a;
+pub(crate) type EachRow<'a> = dyn FnMut(u64, &[f64]) -> Result<bool, Fault> + 'a;
 
 /// The kinds of files, by their extension.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -92,15 +93,15 @@ enum Format {
     Npy,
 }
 
-fn format(path: &Path) -> Result<Format, RecordingError> {
+fn format(path: &Path) -> Result<Format, Fault> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
         Some("csv" | "txt" | "tsv") => Ok(Format::Csv),
         Some("wav") => Ok(Format::Wav),
         Some("npy") => Ok(Format::Npy),
         _ => {
-            let problem = Problem::Format("is none of .csv, .tsv, .txt, .wav, .npy".into());
-            Err(RecordingError::of(path, problem))
+            let what = "is none of .csv, .tsv, .txt, .wav, .npy";
+            Err(Fault::new(what, remedy::FORMAT).at(path))
         }
     }
 }
@@ -113,8 +114,8 @@ pub(crate) fn is_known(path: &Path) -> bool {
 /// The header of a file.
 ///
 /// # Errors
-/// [`RecordingError`] for a file that cannot be read or is of no known kind.
-pub fn header(path: &Path) -> Result<Header, RecordingError> {
+/// [`Fault`] for a file that cannot be read or is of no known kind.
+pub fn header(path: &Path) -> Result<Header, Fault> {
     match format(path)? {
         Format::Csv => csv::header(path),
         Format::Wav => wav::header(path),
@@ -128,14 +129,10 @@ pub(crate) fn rows(
     path: &Path,
     wanted: &[usize],
     each: &mut EachRow<'_>,
-) -> Result<Option<Remark>, RecordingError> {
+) -> Result<Option<Remark>, Fault> {
     match format(path)? {
         Format::Csv => csv::rows(path, wanted, each),
         Format::Wav => wav::rows(path, each).map(|()| None),
         Format::Npy => npy::rows(path, each).map(|()| None),
     }
-}
-
-fn unreadable(path: &Path) -> impl Fn(std::io::Error) -> RecordingError + '_ {
-    move |error| RecordingError::of(path, Problem::Unreadable(error))
 }

@@ -3,11 +3,9 @@
 //! The format is ten bytes and a Python dictionary of three entries. Crates that read it bring a
 //! parser generator along, so these lines read it.
 
-use super::{EachRow, Header, unreadable};
-use crate::{
-    error::{Problem, RecordingError},
-    file,
-};
+use super::{EachRow, Header};
+use crate::{file, remedy::unreadable};
+use asperity_io::diagnostic::Fault;
 use std::{
     fs::File,
     io::{BufReader, Read},
@@ -36,11 +34,8 @@ struct Array {
     columns: usize,
 }
 
-fn open(path: &Path) -> Result<Array, RecordingError> {
-    let refused = |what: &str, remedy: &'static str| {
-        let what = what.to_owned();
-        RecordingError::of(path, Problem::File { what, remedy })
-    };
+fn open(path: &Path) -> Result<Array, Fault> {
+    let refused = |what: &str, remedy: &str| Fault::new(what, remedy).at(path);
     let damaged = |what: &str| refused(what, "save it again with numpy.save");
     let mut reader = BufReader::new(file::open(path)?);
     let mut start = [0; 8];
@@ -111,7 +106,7 @@ fn open(path: &Path) -> Result<Array, RecordingError> {
     })
 }
 
-pub(super) fn header(path: &Path) -> Result<Header, RecordingError> {
+pub(super) fn header(path: &Path) -> Result<Header, Fault> {
     let columns = open(path)?.columns;
     Ok(Header {
         columns: (0..columns).map(|column| column.to_string()).collect(),
@@ -119,17 +114,15 @@ pub(super) fn header(path: &Path) -> Result<Header, RecordingError> {
     })
 }
 
-pub(super) fn rows(path: &Path, each: &mut EachRow<'_>) -> Result<(), RecordingError> {
+pub(super) fn rows(path: &Path, each: &mut EachRow<'_>) -> Result<(), Fault> {
     let mut array = open(path)?;
     let mut row = vec![0.0; array.columns];
     for index in 1..=array.rows {
         for value in &mut row {
             *value = array.next().map_err(|_| {
-                let problem = Problem::File {
-                    what: format!("is cut: it ends before row {index} of {}", array.rows),
-                    remedy: "copy it again; numpy.load fails on it as well",
-                };
-                RecordingError::at(path, index, problem)
+                let what = format!("is cut: it ends before row {index} of {}", array.rows);
+                let remedy = "copy it again; numpy.load fails on it as well";
+                Fault::new(what, remedy).at(path).line(index)
             })?;
         }
         if !each(index, &row)? {

@@ -3,11 +3,9 @@
 //! Programs that write into a pipe state a length of 0 or about 2³² bytes, and one that was killed states
 //! too many: such a file is read to its end, and that is said.
 
-use super::{EachRow, Header, Remark, unreadable};
-use crate::{
-    error::{Problem, RecordingError},
-    file,
-};
+use super::{EachRow, Header, Remark};
+use crate::{file, remedy::unreadable};
+use asperity_io::diagnostic::Fault;
 use std::{
     fs::File,
     io::{self, BufReader, Read, Seek, SeekFrom},
@@ -223,18 +221,15 @@ fn fill(file: &mut impl Read, buffer: &mut [u8]) -> io::Result<usize> {
 }
 
 /// An open file at its first value, the bytes of values that are there, and what is to be said.
-fn open(path: &Path) -> Result<(BufReader<File>, Wav, u64, Vec<Remark>), RecordingError> {
+fn open(path: &Path) -> Result<(BufReader<File>, Wav, u64, Vec<Remark>), Fault> {
     let mut file = BufReader::new(file::open(path)?);
-    let refused = |what: String, remedy| RecordingError::of(path, Problem::File { what, remedy });
     let wav = match read_header(&mut file).map_err(unreadable(path))? {
         Found::Whole(wav) => wav,
         Found::Cut => {
-            return Err(refused(
-                "is cut: it ends within its header".into(),
-                "copy or record it again",
-            ));
+            let what = "is cut: it ends within its header";
+            return Err(Fault::new(what, "copy or record it again").at(path));
         }
-        Found::Refused(what, remedy) => return Err(refused(what, remedy)),
+        Found::Refused(what, remedy) => return Err(Fault::new(what, remedy).at(path)),
     };
     let end = file.seek(SeekFrom::End(0)).map_err(unreadable(path))?;
     let there = end.saturating_sub(wav.begin);
@@ -304,7 +299,7 @@ fn is_chunks(file: &mut (impl Read + Seek), mut at: u64, end: u64) -> io::Result
     Ok(true)
 }
 
-pub(super) fn header(path: &Path) -> Result<Header, RecordingError> {
+pub(super) fn header(path: &Path) -> Result<Header, Fault> {
     let (_, wav, _, remarks) = open(path)?;
     Ok(Header {
         columns: (0..wav.channels)
@@ -317,7 +312,7 @@ pub(super) fn header(path: &Path) -> Result<Header, RecordingError> {
     })
 }
 
-pub(super) fn rows(path: &Path, each: &mut EachRow<'_>) -> Result<(), RecordingError> {
+pub(super) fn rows(path: &Path, each: &mut EachRow<'_>) -> Result<(), Fault> {
     let (mut file, wav, bytes, _) = open(path)?;
     let mut frame = vec![0; wav.width()];
     let mut row = vec![0.0; wav.channels];

@@ -26,7 +26,7 @@ fn riff(chunks: &[Vec<u8>]) -> Vec<u8> {
 }
 
 /// The rows of a file, and what is said of it.
-fn read(bytes: &[u8]) -> Result<(Vec<Vec<f64>>, Vec<String>), RecordingError> {
+fn read(bytes: &[u8]) -> Result<(Vec<Vec<f64>>, Vec<String>), Fault> {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("a.wav");
     std::fs::write(&path, bytes).expect("written");

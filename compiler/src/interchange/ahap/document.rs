@@ -1,6 +1,7 @@
 //! The shape of an AHAP. A value is checked where it is used, so that one which is not used refuses no file.
 
-use crate::interchange::error::{EffectProblem, Fault};
+use crate::interchange::parse::WRONG_JSON;
+use asperity_io::diagnostic::Fault;
 use serde::{
     Deserialize, Deserializer,
     de::{self, IgnoredAny, MapAccess, SeqAccess, Visitor},
@@ -91,20 +92,13 @@ impl Scalar {
             Self::Text(text) => format!("the text {}", super::notes::quoted(text)),
             Self::Other(kind) => (*kind).to_owned(),
         };
-        Err((
-            field(),
-            EffectProblem::Json(format!("{found}, must be a number")),
-        ))
+        let what = format!("{found}, must be a number");
+        Err(Fault::new(what, WRONG_JSON).field(field()))
     }
 
     /// The number, which must be there.
     pub(super) fn required(&self, field: impl Fn() -> String) -> Result<f64, Fault> {
-        let missing = || {
-            (
-                field(),
-                EffectProblem::Json("missing, must be a number".into()),
-            )
-        };
+        let missing = || Fault::new("missing, must be a number", WRONG_JSON).field(field());
         self.number(&field)?.ok_or_else(missing)
     }
 

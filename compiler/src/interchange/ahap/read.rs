@@ -7,11 +7,11 @@ use super::{
     notes::{Note, Notes},
 };
 use crate::interchange::{
-    error::{EffectProblem, Fault},
     haptic::sharpness_hz,
-    parse::{MAX_S, bounded, json, within},
+    parse::{MAX_S, bounded, json, too_many, within},
     playback::{TonePoint, Track, Transient},
 };
+use asperity_io::diagnostic::Fault;
 
 /// Time between points at which controls are read besides their own points, s: intensities are squared.
 const STEP_S: f64 = 0.005;
@@ -233,10 +233,8 @@ fn add(
     }
     let end = end(event, begin, &at, notes)?;
     room.span_s += end - begin;
-    let too_many = |what, found, limit| {
-        let problem = EffectProblem::TooMany { what, found, limit };
-        Err((at(".EventDuration"), problem))
-    };
+    let too_many =
+        |what, found, limit| Err(too_many(what, found, limit).field(at(".EventDuration")));
     if room.span_s > MAX_EVENTS_S {
         let what = "seconds of continuous events in all";
         return too_many(what, room.span_s, MAX_EVENTS_S);

@@ -16,7 +16,7 @@ const MOST_DB: f64 = 0.5;
 
 fn parsed(pattern: &Value) -> Track {
     let text = pattern.to_string();
-    read(&text).unwrap_or_else(|(field, problem)| panic!("{field}: {problem}: {text}"))
+    read(&text).unwrap_or_else(|fault| panic!("{fault}: {text}"))
 }
 
 fn event(kind: &str, time: f64, duration: Option<f64>, character: [f64; 2]) -> Value {
@@ -376,8 +376,8 @@ fn a_fault_is_named_by_its_path() {
         ),
         ("{\"Version\": 1}".into(), "", "Pattern"),
     ] {
-        let (found, problem) = read(&file).unwrap_err();
-        assert_eq!(found, field, "{problem}");
-        assert!(problem.to_string().contains(said), "{field}: {problem}");
+        let fault = read(&file).unwrap_err();
+        assert_eq!(fault.field, field, "{fault}");
+        assert!(fault.what.contains(said), "{fault}");
     }
 }

@@ -4,9 +4,12 @@
 //! input of ids, int32 or int64 `[1, 77]`, possibly an attention mask of the same shape, and an
 //! output `[1, width]`. Where there are several outputs, it is `text_embeds`.
 
-use super::encoder::{Encoded, TextEncoder, TextError, unit};
+use super::encoder::{Encoded, TextEncoder, failed, signature, unit};
 use crate::learned::inference::Backend;
-use asperity_io::input::{self, Kind};
+use asperity_io::{
+    diagnostic::Fault,
+    input::{self, Kind},
+};
 use asperity_model::CLIP_MERGES;
 use asperity_nn::{Dim, ElementType, Port, Session, Tensor};
 use instant_clip_tokenizer::Tokenizer;
@@ -35,18 +38,16 @@ impl Clip {
     /// Opens the export in a folder.
     ///
     /// # Errors
-    /// [`TextError`] when there is none, or it is no text tower.
-    pub fn open(folder: &Path, backend: &Backend) -> Result<Self, TextError> {
+    /// [`Fault`] when there is none, or it is no text tower.
+    pub fn open(folder: &Path, backend: &Backend) -> Result<Self, Fault> {
         let file = find(folder).ok_or_else(|| {
-            TextError::Network(format!(
-                "{}: neither {} nor {} in it",
-                folder.display(),
-                FILES[0],
-                FILES[1]
+            let [one, other] = FILES;
+            failed(format_args!(
+                "{}: neither {one} nor {other} in it",
+                folder.display()
             ))
         })?;
-        let network =
-            |message: String| TextError::Network(format!("{}: {message}", file.display()));
+        let network = |message: String| failed(format_args!("{}: {message}", file.display()));
         let bytes = input::read(&file, Kind::TextEncoder)
             .map_err(|problem| network(format!("{problem}; {}", problem.remedy())))?;
         Self::new(backend.session(bytes.into()).map_err(network)?)
@@ -55,19 +56,14 @@ impl Clip {
     /// An encoder of a loaded text tower.
     ///
     /// # Errors
-    /// [`TextError::Signature`] for other inputs or outputs than a text tower's.
-    pub fn new(session: Box<dyn Session>) -> Result<Self, TextError> {
+    /// [`Fault`] for other inputs or outputs than a text tower's.
+    pub fn new(session: Box<dyn Session>) -> Result<Self, Fault> {
         // A vocabulary that is only as long as CLIP reads it: the tokenizer's own is five times so.
-        let tokeniser = Tokenizer::with_vocabulary(CLIP_MERGES.as_bytes(), VOCABULARY)
-            .map_err(|error| TextError::Network(error.to_string()))?;
+        let tokeniser =
+            Tokenizer::with_vocabulary(CLIP_MERGES.as_bytes(), VOCABULARY).map_err(failed)?;
         let is_ids = |port: &&Port| {
             matches!(port.element_type, ElementType::I64 | ElementType::I32)
                 && !port.name.contains("mask")
-        };
-        let signature = |field: &str, found: String, expected: &str| TextError::Signature {
-            field: field.to_owned(),
-            found,
-            expected: expected.to_owned(),
         };
         let inputs = session.inputs();
         let listed = |ports: &[Port]| {
@@ -75,29 +71,23 @@ impl Clip {
             names.join(", ")
         };
         let ids = inputs.iter().find(is_ids).cloned().ok_or_else(|| {
-            signature(
-                "inputs",
-                listed(inputs),
-                "token ids, int32 or int64 [1, 77]",
-            )
+            let expected = "token ids, int32 or int64 [1, 77]";
+            signature("inputs", &listed(inputs), expected)
         })?;
         let mask = inputs
             .iter()
             .find(|port| port.name.contains("mask"))
             .cloned();
         if inputs.len() > 1 + usize::from(mask.is_some()) {
-            return Err(signature(
-                "inputs",
-                listed(inputs),
-                "token ids and at most a mask",
-            ));
+            let expected = "token ids and at most a mask";
+            return Err(signature("inputs", &listed(inputs), expected));
         }
         let outputs = session.outputs();
         let output = OUTPUTS
             .iter()
             .find_map(|name| outputs.iter().find(|port| port.name == *name))
             .or_else(|| outputs.iter().find(|port| is_vector(port)))
-            .ok_or_else(|| signature("outputs", listed(outputs), "a vector [1, width]"))?
+            .ok_or_else(|| signature("outputs", &listed(outputs), "a vector [1, width]"))?
             .name
             .clone();
         let mut clip = Self {
@@ -130,7 +120,7 @@ impl Clip {
         (ids, used, cut)
     }
 
-    fn run(&self, ids: &[i64]) -> Result<Vec<f32>, TextError> {
+    fn run(&self, ids: &[i64]) -> Result<Vec<f32>, Fault> {
         let used = 1 + ids.iter().rposition(|&id| id != 0).unwrap_or(0);
         let ones: Vec<i64> = (0..CONTEXT).map(|n| i64::from(n < used)).collect();
         let mut inputs = vec![(self.ids.name.as_str(), integers(&self.ids, ids))];
@@ -138,22 +128,18 @@ impl Clip {
             inputs.push((mask.name.as_str(), integers(mask, &ones)));
         }
         let inputs: Vec<(&str, &Tensor)> = inputs.iter().map(|(name, t)| (*name, t)).collect();
-        let outputs = self
-            .session
-            .run(&inputs)
-            .map_err(|error| TextError::Network(error.to_string()))?;
+        let outputs = self.session.run(&inputs).map_err(failed)?;
         match outputs.into_iter().find(|(name, _)| *name == self.output) {
             Some((_, Tensor::F32 { shape, data }))
                 if shape.first() == Some(&1) && shape.len() == 2 =>
             {
                 Ok(data)
             }
-            Some((name, other)) => Err(TextError::Signature {
-                field: name,
-                found: format!("{:?}", other.shape()),
-                expected: "f32 [1, width]".into(),
-            }),
-            None => Err(TextError::Network(format!("no output {}", self.output))),
+            Some((name, other)) => {
+                let found = format!("{:?}", other.shape());
+                Err(signature(&name, &found, "f32 [1, width]"))
+            }
+            None => Err(failed(format_args!("no output {}", self.output))),
         }
     }
 }
@@ -194,7 +180,7 @@ impl TextEncoder for Clip {
         self.width
     }
 
-    fn encode(&self, text: &str) -> Result<Encoded, TextError> {
+    fn encode(&self, text: &str) -> Result<Encoded, Fault> {
         let (ids, tokens, cut) = self.tokens(text);
         Ok(Encoded {
             vector: unit(self.run(&ids)?)?,

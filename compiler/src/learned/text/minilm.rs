@@ -2,8 +2,9 @@
 
 use super::{
     Vocabulary,
-    encoder::{Encoded, TextEncoder, TextError, unit},
+    encoder::{Encoded, TextEncoder, failed, signature, unit},
 };
+use asperity_io::diagnostic::Fault;
 use asperity_nn::{Session, Tensor};
 use unicode_categories::UnicodeCategories as _;
 use unicode_normalization::char::decompose_canonical;
@@ -34,8 +35,8 @@ impl MiniLm {
     /// Token ids of a text, at most [`MAX_TOKENS`], and how many were cut off.
     ///
     /// # Errors
-    /// [`TextError::Tokeniser`] when the vocabulary lacks the marks.
-    pub fn tokens(&self, text: &str) -> Result<(Vec<i64>, usize), TextError> {
+    /// [`Fault`] when the vocabulary lacks the marks.
+    pub fn tokens(&self, text: &str) -> Result<(Vec<i64>, usize), Fault> {
         let [start, end] = marks(&self.vocabulary)?;
         let mut ids = vec![start];
         ids.extend(pieces(text, &self.vocabulary)?);
@@ -46,18 +47,19 @@ impl MiniLm {
     }
 }
 
-fn lacking(name: &str) -> TextError {
-    TextError::Tokeniser(format!("no {name} in the vocabulary"))
+fn lacking(name: &str) -> Fault {
+    let what = format!("tokeniser: no {name} in the vocabulary");
+    Fault::new(what, "try other words")
 }
 
 /// The ids of the marks before and behind a text.
-pub(super) fn marks(vocabulary: &Vocabulary) -> Result<[i64; 2], TextError> {
+pub(super) fn marks(vocabulary: &Vocabulary) -> Result<[i64; 2], Fault> {
     let mark = |name: &str| vocabulary.id("", name).ok_or_else(|| lacking(name));
     Ok([mark("[CLS]")?.into(), mark("[SEP]")?.into()])
 }
 
 /// The ids of a text's pieces, without marks.
-pub(super) fn pieces(text: &str, vocabulary: &Vocabulary) -> Result<Vec<i64>, TextError> {
+pub(super) fn pieces(text: &str, vocabulary: &Vocabulary) -> Result<Vec<i64>, Fault> {
     let mut ids = Vec::new();
     encode(text, vocabulary, &mut ids).ok_or_else(|| lacking(UNKNOWN))?;
     Ok(ids)
@@ -79,15 +81,13 @@ impl TextEncoder for MiniLm {
             && !ids.iter().any(|id| Some(*id) == unknown)
     }
 
-    fn encode(&self, text: &str) -> Result<Encoded, TextError> {
+    fn encode(&self, text: &str) -> Result<Encoded, Fault> {
         let mut encoded = self.encode_all(&[text])?;
-        encoded
-            .pop()
-            .ok_or_else(|| TextError::Network("no output".into()))
+        encoded.pop().ok_or_else(|| failed("no output"))
     }
 
-    fn encode_all(&self, texts: &[&str]) -> Result<Vec<Encoded>, TextError> {
-        let read: Result<Vec<_>, TextError> = texts.iter().map(|text| self.tokens(text)).collect();
+    fn encode_all(&self, texts: &[&str]) -> Result<Vec<Encoded>, Fault> {
+        let read: Result<Vec<_>, Fault> = texts.iter().map(|text| self.tokens(text)).collect();
         let read = read?;
         // Without padding, texts of one length make a batch.
         let mut order: Vec<usize> = (0..texts.len()).collect();
@@ -113,23 +113,19 @@ impl TextEncoder for MiniLm {
 
 impl MiniLm {
     /// The vectors of a batch of texts of one length, one after the other.
-    fn run(&self, texts: usize, tokens: usize, ids: Vec<i64>) -> Result<Vec<f32>, TextError> {
+    fn run(&self, texts: usize, tokens: usize, ids: Vec<i64>) -> Result<Vec<f32>, Fault> {
         let input = Tensor::I64 {
             shape: vec![texts, tokens],
             data: ids,
         };
-        let outputs = self
-            .session
-            .run(&[("input_ids", &input)])
-            .map_err(|error| TextError::Network(error.to_string()))?;
+        let outputs = self.session.run(&[("input_ids", &input)]).map_err(failed)?;
         match outputs.into_iter().next() {
             Some((_, Tensor::F32 { data, .. })) if data.len() == texts * WIDTH => Ok(data),
-            Some((name, other)) => Err(TextError::Signature {
-                field: name,
-                found: format!("{:?}", other.shape()),
-                expected: format!("f32 [{texts}, {WIDTH}]"),
-            }),
-            None => Err(TextError::Network("no output".into())),
+            Some((name, other)) => {
+                let found = format!("{:?}", other.shape());
+                Err(signature(&name, &found, &format!("f32 [{texts}, {WIDTH}]")))
+            }
+            None => Err(failed("no output")),
         }
     }
 }

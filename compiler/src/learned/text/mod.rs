@@ -9,7 +9,7 @@ mod states;
 mod words;
 
 pub use asperity_language::Vocabulary;
-pub use encoder::{Encoded, TextEncoder, TextError};
+pub use encoder::{Encoded, TextEncoder};
 pub use states::WordStates;
 pub use words::{WithWords, WordTable};
 

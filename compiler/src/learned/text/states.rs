@@ -1,6 +1,7 @@
 //! States of words inside the embedded encoder, from which the reader tells their roles.
 
-use super::{TextError, Vocabulary, minilm};
+use super::{Vocabulary, encoder::failed, minilm};
+use asperity_io::diagnostic::Fault;
 use asperity_language::{roles, words::Token};
 use asperity_nn::{Portable, Tensor};
 use std::ops::Range;
@@ -42,10 +43,9 @@ impl WordStates {
     /// The state of each token, the mean over its pieces. Tokens behind those that are read have none.
     ///
     /// # Errors
-    /// [`TextError`] when the vocabulary or the network is not that of the embedded encoder.
-    pub fn try_states(&self, tokens: &[Token]) -> Result<Vec<Vec<f32>>, TextError> {
-        let failed = |error: asperity_nn::RunError| TextError::Network(error.to_string());
-        let network = (self.network)().map_err(TextError::Network)?;
+    /// [`Fault`] when the vocabulary or the network is not that of the embedded encoder.
+    pub fn try_states(&self, tokens: &[Token]) -> Result<Vec<Vec<f32>>, Fault> {
+        let network = (self.network)().map_err(failed)?;
         let [start, end] = minilm::marks(&self.vocabulary)?;
         let pieces = tokens.iter().map(|token| match token {
             Token::Word(word) => minilm::pieces(word, &self.vocabulary),

@@ -8,8 +8,9 @@
 
 use super::{
     Vocabulary,
-    encoder::{Encoded, TextEncoder, TextError, unit},
+    encoder::{Encoded, TextEncoder, unit},
 };
+use asperity_io::diagnostic::Fault;
 use asperity_language::WordVectors;
 use std::borrow::Cow;
 
@@ -47,11 +48,14 @@ impl WordTable {
     /// then a scale (float32, little-endian) of each.
     ///
     /// # Errors
-    /// [`TextError::Table`] when the bytes do not divide into rows.
-    pub fn new(rows: Vocabulary, bytes: &'static [u8], width: usize) -> Result<Self, TextError> {
+    /// [`Fault`] when the bytes do not divide into rows.
+    pub fn new(rows: Vocabulary, bytes: &'static [u8], width: usize) -> Result<Self, Fault> {
         let count = bytes.len() / (width + size_of::<f32>());
         if width == 0 || bytes.len() != count * (width + size_of::<f32>()) {
-            return Err(TextError::Table(bytes.len()));
+            let count = bytes.len();
+            let what = format!("table of words: {count} bytes are no whole number of rows");
+            let remedy = "take the table and its width from the same package";
+            return Err(Fault::new(what, remedy));
         }
         Ok(Self {
             rows,
@@ -156,11 +160,11 @@ impl<E: TextEncoder> TextEncoder for WithWords<E> {
         self.sentence.reads(word)
     }
 
-    fn encode(&self, text: &str) -> Result<Encoded, TextError> {
+    fn encode(&self, text: &str) -> Result<Encoded, Fault> {
         self.with_words(text, self.sentence.encode(text)?)
     }
 
-    fn encode_all(&self, texts: &[&str]) -> Result<Vec<Encoded>, TextError> {
+    fn encode_all(&self, texts: &[&str]) -> Result<Vec<Encoded>, Fault> {
         let encoded = self.sentence.encode_all(texts)?;
         let pairs = texts.iter().zip(encoded);
         pairs
@@ -171,7 +175,7 @@ impl<E: TextEncoder> TextEncoder for WithWords<E> {
 
 impl<E: TextEncoder> WithWords<E> {
     /// Both views of a text, given the sentence encoder's.
-    fn with_words(&self, text: &str, mut encoded: Encoded) -> Result<Encoded, TextError> {
+    fn with_words(&self, text: &str, mut encoded: Encoded) -> Result<Encoded, Fault> {
         match self.table.vector(text) {
             Some(words) => {
                 let of_sentence = SENTENCE.sqrt();
@@ -226,7 +230,7 @@ mod tests {
         fn width(&self) -> usize {
             1
         }
-        fn encode(&self, _: &str) -> Result<Encoded, TextError> {
+        fn encode(&self, _: &str) -> Result<Encoded, Fault> {
             Ok(Encoded {
                 vector: vec![1.0],
                 tokens: 1,

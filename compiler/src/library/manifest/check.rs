@@ -2,20 +2,22 @@
 
 use super::{
     entry::{Options, Origin, Place},
-    error::ManifestProblem,
     missing::{is_error, is_nothing},
     row::{Field, Row, Value},
-    values::{Checker, OPTIONS, Stated},
+    values::{Checker, OPTIONS, Stated, of_type},
 };
 use crate::{
-    library::check_name,
+    name,
     passes::reduce::Fidelity,
     pipeline::Request,
     sources::{self, Kind, Operand, Registry, prompt::title},
     views::preview,
 };
-use asperity_io::input::InputProblem;
-use asperity_io::shown::suggestion;
+use asperity_io::{
+    diagnostic::Fault,
+    input::{InputError, InputProblem},
+    shown::suggestion,
+};
 use std::{borrow::Cow, fs, io, path::PathBuf};
 
 /// Keys of what a texture is made of, where those are other textures.
@@ -122,14 +124,12 @@ impl Checker<'_> {
             // It is there, and reported as a key that is misspelt.
             [] if self.has_misspelt_origin(row) => None,
             [] => {
-                let problem = self.no_origin("no source".into());
-                self.fault(row.line, "", problem);
+                self.wrong_origin(row.line, "no source");
                 None
             }
             _ => {
                 let found: Vec<&str> = sources.iter().map(|f| f.key.as_str()).collect();
-                let problem = self.no_origin(found.join(" and "));
-                self.fault(sources[1].line, "", problem);
+                self.wrong_origin(sources[1].line, &found.join(" and "));
                 None
             }
         };
@@ -170,8 +170,8 @@ impl Checker<'_> {
             // The missing source is reported.
             (None, None) => return None,
         };
-        if check_name(&name).is_err() {
-            self.fault(line, "name", ManifestProblem::Name(name));
+        if !name::fits(&name) {
+            self.fault(line, "name", name::invalid(&name));
             return None;
         }
         // NA and None may be names; these are what scripts print.
@@ -182,15 +182,13 @@ impl Checker<'_> {
         Some(name)
     }
 
-    fn nothing<T>(
-        &mut self,
-        line: usize,
-        key: &str,
-        wanted: &'static str,
-        text: &str,
-    ) -> Option<T> {
-        let text = text.to_owned();
-        self.fault(line, key, ManifestProblem::Nothing { text, wanted });
+    /// Reports a text that stands for none.
+    fn nothing<T>(&mut self, line: usize, key: &str, wanted: &str, text: &str) -> Option<T> {
+        let what = format!(
+            "{text:?} is no {wanted}, but what a table has for a cell without a value, or with an error"
+        );
+        let remedy = format!("write a {wanted}, or remove the row");
+        self.fault(line, key, Fault::new(what, remedy));
         None
     }
 
@@ -208,13 +206,16 @@ impl Checker<'_> {
         self.registry.keys().chain(OTHERS).collect()
     }
 
-    fn no_origin(&self, found: String) -> ManifestProblem {
+    /// Reports a row without a source, or with several.
+    fn wrong_origin(&mut self, line: usize, found: &str) {
         let origins = self.origins();
         let known = match origins.split_last() {
             Some((last, others)) => format!("{} and {last}", others.join(", ")),
             None => String::new(),
         };
-        ManifestProblem::Origin { found, known }
+        let what = format!("{found}; a texture has one of {known}");
+        let remedy = "give every texture exactly one source";
+        self.fault(line, "", Fault::new(what, remedy));
     }
 
     /// A source that the registry knows.
@@ -263,7 +264,8 @@ impl Checker<'_> {
         match (kind.open)(&stated) {
             Ok(source) => Some(Origin::Source { key, source }),
             Err(failure) => {
-                self.fault(field.line, key, ManifestProblem::Source(failure));
+                let fault = Fault::new(&failure, failure.remedy());
+                self.fault(field.line, key, fault);
                 None
             }
         }
@@ -327,14 +329,7 @@ impl Checker<'_> {
     fn reference(&mut self, inner: &[Field], key: &'static str, line: usize) -> Option<Reference> {
         let own = key.rsplit('.').next().unwrap_or(key);
         let Some(field) = inner.iter().find(|inner| inner.key == own) else {
-            self.fault(
-                line,
-                key,
-                ManifestProblem::Type {
-                    wanted: "the name of a texture",
-                    found: "missing",
-                },
-            );
+            self.fault(line, key, of_type("the name of a texture", "missing"));
             return None;
         };
         let name = self.text(field, key)?.to_owned();
@@ -365,7 +360,8 @@ impl Checker<'_> {
             Ok(_) => InputProblem::Device,
             Err(error) => unreadable(error),
         };
-        self.fault(field.line, key, ManifestProblem::File { file, problem });
+        let fault = Fault::of(&InputError { file, problem });
+        self.fault(field.line, key, fault);
         None
     }
 
@@ -393,8 +389,7 @@ impl Checker<'_> {
         let GoesWith { key, refuses, .. } = self.goes_with(origin);
         for field in &row.fields {
             if refuses.contains(&field.key.as_str()) {
-                let problem = ManifestProblem::Misplaced { origin: key };
-                self.fault(field.line, &field.key, problem);
+                self.misplaced(field.line, &field.key, key);
             }
         }
     }

@@ -4,6 +4,7 @@ use crate::{
     pipeline::Request,
     sources::{ManifestSource, latents::Edit},
 };
+use asperity_io::diagnostic::{Diagnostic, Fault};
 use std::{fmt, path::Path, sync::Arc};
 
 /// Where an entry stands.
@@ -21,6 +22,13 @@ impl fmt::Display for Place {
     }
 }
 
+impl Place {
+    /// A fault in the same file.
+    pub(super) fn fault(&self, line: usize, key: &str, fault: Fault) -> Fault {
+        fault.at(&*self.file).line(line as u64).field(key)
+    }
+}
+
 /// A texture that a library is to have.
 #[derive(Debug, Clone)]
 pub struct Entry {
@@ -32,6 +40,15 @@ pub struct Entry {
     pub options: Options,
     /// Where it stands.
     pub place: Place,
+}
+
+impl Entry {
+    /// Returns the fault of a texture that cannot be made.
+    pub(crate) fn fault(&self, cause: &dyn Diagnostic) -> Fault {
+        let field = format!("{:?}: {}", self.name, self.origin.key());
+        let fault = Fault::new(cause, cause.remedy());
+        self.place.fault(self.place.line, &field, fault)
+    }
 }
 
 /// Origin of a texture. Textures of a checked manifest are referred to by index.

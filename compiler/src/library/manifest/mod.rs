@@ -14,14 +14,13 @@
 //! assert_eq!(names, ["cork", "oak"]); // in order of name
 //!
 //! let faults = Manifest::of_text(file, "[[texture]]\nprompt = 7\n").unwrap_err();
-//! assert_eq!((faults[0].line, faults[0].key.as_str()), (Some(2), "prompt"));
+//! assert_eq!((faults[0].line, faults[0].field.as_str()), (Some(2), "prompt"));
 //! ```
 
 mod cells;
 mod check;
 mod csv_file;
 mod entry;
-mod error;
 mod graph;
 mod json_file;
 mod missing;
@@ -31,8 +30,7 @@ mod toml_file;
 mod values;
 
 pub use entry::{Entry, Options, Origin, Place};
-pub use error::{ManifestError, ManifestProblem};
 pub use read::{Manifest, Setup, is_scene};
 
-pub(crate) use error::CONFINED_REMEDY;
 pub(in crate::library) use graph::order;
+pub(in crate::library) use values::CONFINED_REMEDY;

@@ -4,16 +4,18 @@ use super::{
     check::{Draft, Reference},
     csv_file,
     entry::{Entry, Origin, Place},
-    error::{ManifestError, ManifestProblem},
     graph::order,
     json_file,
     row::{Field, MAX_FAULTS, MAX_ROWS, Sheet, Value},
     toml_file,
-    values::{Checker, Stated},
+    values::{Checker, Stated, of_type, unknown_key},
 };
 use crate::sources::Registry;
-use asperity_io::input::{self, Kind, Reach};
-use asperity_io::shown::suggestion;
+use asperity_io::{
+    diagnostic::Fault,
+    input::{self, Kind, Reach},
+    shown::suggestion,
+};
 use std::{
     collections::HashMap,
     fs,
@@ -45,6 +47,8 @@ pub struct Setup {
     pub backend: Option<String>,
 }
 
+/// Remedy for a file that is not what its name says.
+const EXAMPLES: &str = "see the examples in docs/libraries.md";
 /// Keys at the top that make a manifest a scene.
 const OF_SCENES: [&str; 2] = ["servo_rate_hz", "surface"];
 
@@ -66,7 +70,7 @@ impl Manifest {
     ///
     /// # Errors
     /// Every fault of every file, in the order of files and lines.
-    pub fn read(file: &Path) -> Result<Self, Vec<ManifestError>> {
+    pub fn read(file: &Path) -> Result<Self, Vec<Fault>> {
         let text = text(file).map_err(|error| vec![error])?;
         Self::of_text(file, &text)
     }
@@ -75,7 +79,7 @@ impl Manifest {
     ///
     /// # Errors
     /// As [`read`](Self::read).
-    pub fn of_text(file: &Path, text: &str) -> Result<Self, Vec<ManifestError>> {
+    pub fn of_text(file: &Path, text: &str) -> Result<Self, Vec<Fault>> {
         Self::within(file, text, Reach::Anywhere, &Registry::default())
     }
 
@@ -89,7 +93,7 @@ impl Manifest {
         text: &str,
         reach: Reach,
         registry: &Registry,
-    ) -> Result<Self, Vec<ManifestError>> {
+    ) -> Result<Self, Vec<Fault>> {
         Self::checked(file, text, reach, registry, false)
     }
 
@@ -99,7 +103,7 @@ impl Manifest {
         text: &str,
         reach: Reach,
         registry: &Registry,
-    ) -> Result<Self, Vec<ManifestError>> {
+    ) -> Result<Self, Vec<Fault>> {
         Self::checked(file, text, reach, registry, true)
     }
 
@@ -109,7 +113,7 @@ impl Manifest {
         reach: Reach,
         registry: &Registry,
         scene: bool,
-    ) -> Result<Self, Vec<ManifestError>> {
+    ) -> Result<Self, Vec<Fault>> {
         let mut reader = Reader {
             reach,
             registry: registry.clone(),
@@ -131,37 +135,29 @@ fn kind(file: &Path) -> Kind {
 }
 
 /// Returns the fault of an unexpected top-level key.
-fn top_problem(field: &Field, scene: bool) -> ManifestProblem {
+fn top_fault(field: &Field, scene: bool) -> Fault {
     let wanted = match (field.key.as_str(), &field.value) {
-        ("texture", Value::Table(_)) => return ManifestProblem::Single,
+        ("texture", Value::Table(_)) => {
+            let what = "one table in single brackets, but a list of tables is expected";
+            return Fault::new(
+                what,
+                "write [[texture]], in two brackets, above each texture",
+            );
+        }
         ("texture", _) => "a list of tables, each written [[texture]],",
         ("include", _) => "a list of manifests",
         ("defaults", _) => "one table, written [defaults],",
         _ => {
             let of_scenes: &[&str] = if scene { &OF_SCENES } else { &[] };
             let known = [&["include", "defaults", "texture"], of_scenes].concat();
-            return ManifestProblem::UnknownKey {
-                suggestion: suggestion(&field.key, known.iter().copied()),
-                known: known.join(", "),
-            };
+            return unknown_key(field, &known);
         }
     };
-    let found = field.value.kind();
-    ManifestProblem::Type { wanted, found }
+    of_type(wanted, field.value.kind())
 }
 
-fn text(file: &Path) -> Result<String, ManifestError> {
-    input::read_text(file, kind(file)).map_err(|problem| whole(file, problem.into()))
-}
-
-/// A fault of a file as a whole.
-fn whole(file: &Path, problem: ManifestProblem) -> ManifestError {
-    ManifestError {
-        file: file.to_owned(),
-        line: None,
-        key: String::new(),
-        problem,
-    }
+fn text(file: &Path) -> Result<String, Fault> {
+    input::read_text(file, kind(file)).map_err(|problem| Fault::from(problem).at(file))
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -195,7 +191,7 @@ struct Reader {
     names: Vec<(String, Place)>,
     /// Rows of all files so far.
     rows: usize,
-    errors: Vec<ManifestError>,
+    errors: Vec<Fault>,
     sources: Vec<PathBuf>,
     setup: Setup,
     /// Files that are being read, each including the next.
@@ -229,7 +225,7 @@ impl Reader {
         let scene = first && self.scene;
         for field in &sheet.wrong {
             if !(scene && OF_SCENES.contains(&field.key.as_str())) {
-                checker.fault(field.line, &field.key, top_problem(field, scene));
+                checker.fault(field.line, &field.key, top_fault(field, scene));
             }
         }
         let mut stated = outer.clone();
@@ -254,12 +250,15 @@ impl Reader {
         }
         self.rows += sheet.rows.len();
         if self.rows > MAX_ROWS {
-            checker.fault(1, "", ManifestProblem::TooMany(MAX_ROWS));
+            let what = format!("more than {MAX_ROWS} textures");
+            let remedy = "split the manifest, and join the libraries with `asperity merge`";
+            checker.fault(1, "", Fault::new(what, remedy));
             return;
         }
         for row in &sheet.rows {
             if checker.errors.len() > MAX_FAULTS {
-                checker.fault(row.line, "", ManifestProblem::More);
+                let more = Fault::new("further faults are not shown", "correct these first");
+                checker.fault(row.line, "", more);
                 break;
             }
             let (name, draft) = checker.row(row, &stated);
@@ -279,12 +278,8 @@ impl Reader {
 
     fn sheet(&mut self, file: &Path, text: &str) -> Option<Sheet> {
         let mut fault = |line: usize, message: String| {
-            self.errors.push(ManifestError {
-                file: file.to_owned(),
-                line: Some(line),
-                key: String::new(),
-                problem: ManifestProblem::Syntax(message),
-            });
+            let fault = Fault::new(message, EXAMPLES).at(file);
+            self.errors.push(fault.line(line as u64));
         };
         match syntax(file) {
             Some(Syntax::Toml) => toml_file::parse(text)
@@ -314,7 +309,8 @@ impl Reader {
                 Some(sheet)
             }
             None => {
-                self.errors.push(whole(file, ManifestProblem::Kind));
+                let what = "not a manifest: the name must end in .toml, .csv or .jsonl";
+                self.errors.push(Fault::new(what, EXAMPLES).at(file));
                 None
             }
         }
@@ -330,12 +326,8 @@ impl Reader {
             columns: Vec::new(),
         };
         let Value::Text(_) = field.value else {
-            let (wanted, found) = ("the path of a manifest", field.value.kind());
-            checker.fault(
-                field.line,
-                "include",
-                ManifestProblem::Type { wanted, found },
-            );
+            let fault = of_type("the path of a manifest", field.value.kind());
+            checker.fault(field.line, "include", fault);
             return;
         };
         let Some(file) = checker.file(field, "include") else {
@@ -351,13 +343,15 @@ impl Reader {
         if let Some(from) = self.open.iter().position(|open| *open == own) {
             let chain = self.open[from..].iter().chain([&own]);
             let chain: Vec<String> = chain.map(shown).collect();
-            let problem = ManifestProblem::IncludeCycle(chain.join(" → "));
-            checker.fault(field.line, "include", problem);
+            let what = format!("the manifest includes itself: {}", chain.join(" → "));
+            let fault = Fault::new(what, "remove one of the includes");
+            checker.fault(field.line, "include", fault);
             return;
         }
         if self.read.contains(&own) {
-            let problem = ManifestProblem::IncludedTwice(shown(&own));
-            checker.fault(field.line, "include", problem);
+            let what = format!("{} is included twice", shown(&own));
+            let fault = Fault::new(what, "remove one of the includes");
+            checker.fault(field.line, "include", fault);
             return;
         }
         match text(&file) {
@@ -371,7 +365,7 @@ impl Reader {
     }
 
     /// Checks all textures together.
-    fn manifest(mut self, file: &Path) -> Result<Manifest, Vec<ManifestError>> {
+    fn manifest(mut self, file: &Path) -> Result<Manifest, Vec<Fault>> {
         let complete = self.errors.is_empty();
         let mut drafts = std::mem::take(&mut self.drafts);
         let mut names = std::mem::take(&mut self.names);
@@ -381,11 +375,9 @@ impl Reader {
             if let [(first, other), (second, place)] = pair
                 && first == second
             {
-                let problem = ManifestProblem::SameName {
-                    name: second.clone(),
-                    other: other.to_string(),
-                };
-                self.fault(place, place.line, "name", problem);
+                let what = format!("{second:?} is also the name of the texture at {other}");
+                let fault = Fault::new(what, "rename one of them");
+                self.errors.push(place.fault(place.line, "name", fault));
             }
         }
         drafts.sort_by(|a, b| a.name.cmp(&b.name));
@@ -413,17 +405,16 @@ impl Reader {
                 .iter()
                 .map(|&i| format!("{:?}", entries[i].name))
                 .collect();
-            let entry = &entries[cycle[0]];
-            let problem = ManifestProblem::Cycle(names.join(" → "));
-            self.fault(
-                &entry.place.clone(),
-                entry.place.line,
-                entry.origin.key(),
-                problem,
-            );
+            let Entry { place, origin, .. } = &entries[cycle[0]];
+            let what = format!("the texture depends on itself: {}", names.join(" → "));
+            let fault = Fault::new(what, "give one of them another source");
+            self.errors
+                .push(place.fault(place.line, origin.key(), fault));
         }
         if entries.is_empty() && self.errors.is_empty() {
-            self.errors.push(whole(file, ManifestProblem::Empty));
+            let remedy = "add a [[texture]] with a name and a prompt";
+            let fault = Fault::new("the manifest lists no texture", remedy);
+            self.errors.push(fault.at(file));
         }
         if self.errors.is_empty() {
             Ok(Manifest {
@@ -437,15 +428,6 @@ impl Reader {
                 .sort_by(|a, b| (&a.file, a.line).cmp(&(&b.file, b.line)));
             Err(self.errors)
         }
-    }
-
-    fn fault(&mut self, place: &Place, line: usize, key: &str, problem: ManifestProblem) {
-        self.errors.push(ManifestError {
-            file: place.file.to_path_buf(),
-            line: Some(line),
-            key: key.to_owned(),
-            problem,
-        });
     }
 
     /// The source with indices for names. Where rows were left out because of faults, a name may
@@ -464,11 +446,11 @@ impl Reader {
             let found = index.get(&reference.name).copied();
             if found.is_none() && complete {
                 let names = index.keys().map(String::as_str);
-                let problem = ManifestProblem::NoSuchTexture {
-                    suggestion: suggestion(&reference.name, names),
-                    wanted: reference.name,
-                };
-                self.fault(place, reference.line, reference.key, problem);
+                let what = format!("no texture {:?} in this manifest", reference.name);
+                let fault = Fault::new(what, "add it, or correct the name")
+                    .suggest(suggestion(&reference.name, names));
+                self.errors
+                    .push(place.fault(reference.line, reference.key, fault));
             }
             found
         })

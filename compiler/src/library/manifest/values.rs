@@ -3,18 +3,24 @@
 
 use super::{
     entry::Place,
-    error::{ManifestError, ManifestProblem},
     row::{Field, Value},
 };
 use crate::{
     edit_memory::Sliders,
     passes::{reduce::Fidelity, rerate},
-    sources::{Registry, latents::Edit, prompt::phrase::relative},
+    sources::{
+        Registry,
+        latents::{Edit, not_understood},
+        prompt::phrase::relative,
+    },
     views::preview,
 };
-use asperity_io::input::Reach;
-use asperity_io::shown::suggestion;
+use asperity_io::{diagnostic::Fault, input::Reach, shown::suggestion};
 use std::path::Path;
+
+/// Remedy for a path that leaves the folder of its list.
+pub(crate) const CONFINED_REMEDY: &str =
+    "copy the file next to the manifest, or leave out --confined if you trust its author";
 
 /// Keys of a texture's options.
 pub(super) const OPTIONS: [&str; 6] = ["seed", "fidelity", "rate", "preview", "loudness", "edit"];
@@ -54,20 +60,15 @@ pub(super) struct Checker<'a> {
     pub(super) file: &'a Place,
     pub(super) folder: &'a Path,
     pub(super) reach: &'a Reach,
-    pub(super) errors: &'a mut Vec<ManifestError>,
+    pub(super) errors: &'a mut Vec<Fault>,
     pub(super) registry: &'a Registry,
     /// Columns of a CSV file that are no keys, and are reported already.
     pub(super) columns: Vec<String>,
 }
 
 impl Checker<'_> {
-    pub(super) fn fault(&mut self, line: usize, key: &str, problem: ManifestProblem) {
-        self.errors.push(ManifestError {
-            file: self.file.file.to_path_buf(),
-            line: Some(line),
-            key: key.to_owned(),
-            problem,
-        });
+    pub(super) fn fault(&mut self, line: usize, key: &str, fault: Fault) {
+        self.errors.push(self.file.fault(line, key, fault));
     }
 
     /// Returns true if the manifest may name a path, and else reports a fault. A folder is checked with all its
@@ -80,12 +81,9 @@ impl Checker<'_> {
             self.reach.check(path, &seen)
         };
         if let Err(outside) = checked {
-            let stated = stated.to_owned();
-            self.fault(
-                field.line,
-                key,
-                ManifestProblem::Outside { stated, outside },
-            );
+            let what =
+                format!("{stated:?} is {outside}, and the manifest is confined to its folder");
+            self.fault(field.line, key, Fault::new(what, CONFINED_REMEDY));
         }
         checked.is_ok()
     }
@@ -101,11 +99,10 @@ impl Checker<'_> {
         &mut self,
         line: usize,
         key: &str,
-        wanted: &'static str,
+        wanted: &str,
         found: &Value,
     ) -> Option<T> {
-        let found = found.kind();
-        self.fault(line, key, ManifestProblem::Type { wanted, found });
+        self.fault(line, key, of_type(wanted, found.kind()));
         None
     }
 
@@ -116,7 +113,8 @@ impl Checker<'_> {
         wanted: String,
         found: String,
     ) -> Option<T> {
-        self.fault(line, key, ManifestProblem::Value { wanted, found });
+        let what = format!("{found:?} must be {wanted}");
+        self.fault(line, key, Fault::new(what, "correct the value"));
         None
     }
 
@@ -182,11 +180,13 @@ impl Checker<'_> {
 
     pub(super) fn unknown(&mut self, field: &Field, prefix: &str, known: &[&str]) {
         let key = format!("{prefix}{}", field.key);
-        let problem = ManifestProblem::UnknownKey {
-            suggestion: suggestion(&field.key, known.iter().copied()),
-            known: known.join(", "),
-        };
-        self.fault(field.line, &key, problem);
+        self.fault(field.line, &key, unknown_key(field, known));
+    }
+
+    /// Reports a key that does not go with the source.
+    pub(super) fn misplaced(&mut self, line: usize, key: &str, origin: &str) {
+        let what = format!("cannot be combined with {origin}");
+        self.fault(line, key, Fault::new(what, "remove the key"));
     }
 
     /// Reads an option. Returns true if the key is one.
@@ -256,19 +256,31 @@ impl Checker<'_> {
     fn words(&mut self, words: &Field, inner: &[Field], known: &[&str]) -> Option<Edit> {
         for other in inner.iter().filter(|other| other.key != "prompt") {
             if known.contains(&other.key.as_str()) {
-                let origin = "edit.prompt";
                 let key = format!("edit.{}", other.key);
-                self.fault(other.line, &key, ManifestProblem::Misplaced { origin });
+                self.misplaced(other.line, &key, "edit.prompt");
             } else {
                 self.unknown(other, "edit.", known);
             }
         }
         let text = self.text(words, "edit.prompt")?.trim();
         if relative(text).is_nothing() {
-            let problem = ManifestProblem::NoChange(text.to_owned());
-            self.fault(words.line, "edit.prompt", problem);
+            let fault = not_understood(format_args!("{text:?}"));
+            self.fault(words.line, "edit.prompt", fault);
             return None;
         }
         Some(Edit::Words(text.to_owned()))
     }
+}
+
+/// Returns the fault of a value of another type.
+pub(super) fn of_type(wanted: &str, found: &str) -> Fault {
+    let what = format!("must be {wanted}, but is {found}");
+    Fault::new(what, "correct the value")
+}
+
+/// Returns the fault of a key that is not known there.
+pub(super) fn unknown_key(field: &Field, known: &[&str]) -> Fault {
+    let what = format!("no such key; known keys are {}", known.join(", "));
+    let suggestion = suggestion(&field.key, known.iter().copied());
+    Fault::new(what, "correct the key, or remove it").suggest(suggestion)
 }

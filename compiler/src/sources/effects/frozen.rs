@@ -157,8 +157,7 @@ fn hashes(kind: Kind, file: impl Fn(&mut Draw) -> Value) -> (u32, u32) {
             Kind::Hjif => hjif::read(&text),
             Kind::Ahap => unreachable!("AHAP is held against a player instead"),
         };
-        played
-            .track(&track.unwrap_or_else(|(field, problem)| panic!("{field}: {problem}: {text}")));
+        played.track(&track.unwrap_or_else(|fault| panic!("{fault}: {text}")));
         if seed < COMPILED {
             let path = folder.path().join(format!("{seed}.json"));
             fs::write(&path, text).unwrap();

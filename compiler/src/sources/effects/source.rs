@@ -4,17 +4,17 @@ use super::stroke;
 use crate::{
     compiled::ErrorReference,
     interchange::{
-        EffectError, EffectProblem, ahap, haptic, hjif,
+        ahap, haptic, hjif,
         playback::{Track, Transient},
     },
     learned::edges,
-    library::check_name,
+    name,
     pipeline::{Pass, Pipeline, Request, Ringing},
     sources::{ManifestSource, Source, SourceOutput, Tools, key::Parts},
 };
 use asperity_formats::limits::MAX_NAME_BYTES;
 use asperity_io::{
-    diagnostic::Failure,
+    diagnostic::{Failure, Fault},
     input::{self, Format, InputProblem},
     shown::shortened,
 };
@@ -135,8 +135,13 @@ impl Source for Effects {
         let (track, crc32) = pipeline.run(Pass::Read, || self.track(tools))?;
         let mut warnings = track.warnings.clone();
         let name = request.name.clone().unwrap_or_else(|| stem(file));
-        if check_name(&name).is_err() {
-            return Err(self.refused(EffectProblem::Name(name)).into());
+        if !name::fits(&name) {
+            let remedy = "give another --name".into();
+            let fault = Fault {
+                remedy,
+                ..name::invalid(&name)
+            };
+            return Err(fault.at(file).usage().into());
         }
         let whole = pipeline.run(Pass::Decode, || {
             texture(&track, name, *kind, options, &mut warnings)
@@ -147,7 +152,9 @@ impl Source for Effects {
                 let silent = "no transient, and no continuous effect with an amplitude above zero";
                 reasons.push(silent.into());
             }
-            return Err(self.refused(EffectProblem::Silent { reasons }).into());
+            let what = format!("it holds no effect that sounds: {}", reasons.join("; "));
+            let remedy = "give a file with a continuous effect, a transient or both";
+            return Err(Fault::new(what, remedy).at(file).into());
         };
         let name = file.file_name().unwrap_or_default();
         whole.provenance.source = name.to_string_lossy().into_owned();
@@ -173,34 +180,24 @@ impl ManifestSource for Effects {
 
 impl Effects {
     /// Reads the track of the file, and its CRC-32.
-    fn track(&self, tools: &Tools<'_>) -> Result<(Track, u32), EffectError> {
+    fn track(&self, tools: &Tools<'_>) -> Result<(Track, u32), Fault> {
+        let refused = |problem: InputProblem| Fault::from(problem).at(&self.file);
         let bytes = tools
             .file(&self.file, input::Kind::Effects)
-            .map_err(|problem| self.refused(problem.into()))?;
+            .map_err(refused)?;
         let (_, wanted, _) = Kind::ALL[self.kind as usize];
         if let Some(format) = Format::of(&bytes).filter(|format| *format != wanted) {
             let wanted = wanted.name().into();
-            return Err(self.refused(InputProblem::OtherFormat { format, wanted }.into()));
+            return Err(refused(InputProblem::OtherFormat { format, wanted }));
         }
-        let text = input::text(&bytes).map_err(|problem| self.refused(problem.into()))?;
+        let text = input::text(&bytes).map_err(refused)?;
         let track = match self.kind {
             Kind::Haptic => haptic::read(text),
             Kind::Ahap => ahap::read(text),
             Kind::Hjif => hjif::read(text),
         };
-        let track = track.map_err(|(field, problem)| EffectError {
-            field,
-            ..self.refused(problem)
-        })?;
+        let track = track.map_err(|fault| fault.at(&self.file))?;
         Ok((track, crc32fast::hash(&bytes)))
-    }
-
-    fn refused(&self, problem: EffectProblem) -> EffectError {
-        EffectError {
-            file: self.file.clone(),
-            field: String::new(),
-            problem,
-        }
     }
 }
 

@@ -1,11 +1,11 @@
 //! A HaTT material as its file states it, with every statement checked.
 
 use super::{
-    error::{HattError, Problem},
     filter::{self, Filter},
-    xml::{self, Element},
+    xml::{self, Element, WRONG_FILE, WRONG_VALUE},
 };
 use asperity_formats::limits;
+use asperity_io::diagnostic::Fault;
 use std::path::Path;
 
 /// A HaTT material.
@@ -51,14 +51,14 @@ const BORDER_TOLERANCE: f64 = 1e-6;
 /// Reads a material from the bytes of its file.
 ///
 /// # Errors
-/// [`HattError`] with the line and the field of the first thing that is wrong.
-pub fn parse(file: &Path, bytes: &[u8]) -> Result<Material, HattError> {
+/// [`Fault`] with the line and the field of the first thing that is wrong.
+pub fn parse(file: &Path, bytes: &[u8]) -> Result<Material, Fault> {
     let document = xml::parse(file, bytes)?;
     let root = Element::root(file, &document);
     if root.name() != "modelSet" {
-        return Err(root.error(Problem::WrongRoot {
-            found: root.name().chars().take(40).collect(),
-        }));
+        let found: String = root.name().chars().take(40).collect();
+        let what = format!("root element is <{found}>, <modelSet> expected");
+        return Err(root.fault(what, WRONG_FILE));
     }
     for (field, expected) in [
         ("AccelUnits", "m/s^2"),
@@ -70,7 +70,7 @@ pub fn parse(file: &Path, bytes: &[u8]) -> Result<Material, HattError> {
     let name = name(&root)?;
     let models = root.children("model");
     if models.is_empty() {
-        return Err(root.error(Problem::NoModels));
+        return Err(root.fault("has no <model>", WRONG_VALUE));
     }
     let count = |field, min, max| root.child("", field)?.count(field, min, max);
     let number = |field, rule: &str, min: f64, max: f64| {
@@ -105,14 +105,7 @@ pub fn parse(file: &Path, bytes: &[u8]) -> Result<Material, HattError> {
     let mu = number("mu", "0 to 10", 0.0, limits::MAX_MU.into())?;
     let speeds = header.positions(&root, "speedList", header.max_speed_mm_s)?;
     let forces = header.positions(&root, "forceList", header.max_force_n)?;
-    if models.len() != header.models {
-        return Err(root.error(Problem::Count {
-            field: "model".into(),
-            found: models.len(),
-            expected: header.models,
-            stated_by: "numMod",
-        }));
-    }
+    root.check_count("model", models.len(), (header.models, "numMod"))?;
     let models = models
         .iter()
         .enumerate()
@@ -129,23 +122,19 @@ pub fn parse(file: &Path, bytes: &[u8]) -> Result<Material, HattError> {
     })
 }
 
-fn unit(
-    root: &Element<'_, '_>,
-    field: &'static str,
-    expected: &'static str,
-) -> Result<(), HattError> {
+fn unit(root: &Element<'_, '_>, field: &str, expected: &str) -> Result<(), Fault> {
     let element = root.child("", field)?;
     if element.text() == expected {
         return Ok(());
     }
-    Err(element.error(Problem::Unit {
-        field,
-        value: element.text().chars().take(40).collect(),
-        expected,
-    }))
+    let value: String = element.text().chars().take(40).collect();
+    Err(element.fault(
+        format!("{field} = {value:?}, {expected:?} expected"),
+        format!("convert the file to {expected}"),
+    ))
 }
 
-fn name(root: &Element<'_, '_>) -> Result<String, HattError> {
+fn name(root: &Element<'_, '_>) -> Result<String, Fault> {
     let element = root.child("", "material")?;
     let value = element.text();
     let reason = if value.is_empty() {
@@ -157,10 +146,11 @@ fn name(root: &Element<'_, '_>) -> Result<String, HattError> {
     } else {
         return Ok(value.to_owned());
     };
-    Err(element.error(Problem::Name {
-        value: value.chars().take(80).collect(),
-        reason,
-    }))
+    let value: String = value.chars().take(80).collect();
+    Err(element.fault(
+        format!("material = {value:?}: {reason}"),
+        "give <material> a name of 1 to 64 bytes without control characters",
+    ))
 }
 
 /// List lengths and ranges stated by the head of the file.
@@ -181,7 +171,7 @@ impl Header {
         root: &Element<'_, '_>,
         field: &str,
         border: f64,
-    ) -> Result<Vec<f64>, HattError> {
+    ) -> Result<Vec<f64>, Fault> {
         let slack = border * BORDER_TOLERANCE;
         let rule = format!("0 to {border}");
         let list = root.child("", field)?;
@@ -194,16 +184,9 @@ impl Header {
             .collect())
     }
 
-    fn triangles(&self, root: &Element<'_, '_>) -> Result<Vec<[usize; 3]>, HattError> {
+    fn triangles(&self, root: &Element<'_, '_>) -> Result<Vec<[usize; 3]>, Fault> {
         let elements = root.children("tri");
-        if elements.len() != self.triangles {
-            return Err(root.error(Problem::Count {
-                field: "tri".into(),
-                found: elements.len(),
-                expected: self.triangles,
-                stated_by: "numTri",
-            }));
-        }
+        root.check_count("tri", elements.len(), (self.triangles, "numTri"))?;
         let rule = format!("a model number, 1 to {}", self.models);
         elements
             .iter()
@@ -218,11 +201,9 @@ impl Header {
                 let triangle = [corner(0), corner(1), corner(2)];
                 for (k, other) in [(1, 0), (2, 0), (2, 1)] {
                     if triangle[k] == triangle[other] {
-                        return Err(element.error(Problem::OutOfRange {
-                            field: format!("{field}[{k}]"),
-                            value: corners[k],
-                            rule: "another model than the other two corners".into(),
-                        }));
+                        let rule = "another model than the other two corners";
+                        let field = format_args!("{field}[{k}]");
+                        return Err(element.out_of_range(field, corners[k], rule));
                     }
                 }
                 Ok(triangle)
@@ -236,7 +217,7 @@ impl Header {
         index: usize,
         speed_mm_s: f64,
         force_n: f64,
-    ) -> Result<SourceModel, HattError> {
+    ) -> Result<SourceModel, Fault> {
         let place = format!("model {} ", index + 1);
         let number = |field: &str, rule: &str, min: f64, max: f64| {
             element
@@ -246,32 +227,24 @@ impl Header {
                 })
         };
         let stated = number("modNum", "the number of the model", 1.0, 1e6)?;
-        let agree = |field: &str, value: f64, other: String, other_value: f64, slack: f64| {
+        let agree = |field: &str, value: f64, other: &str, other_value: f64, slack: f64| {
             if (value - other_value).abs() <= slack {
                 return Ok(());
             }
-            Err(element.child(&place, field)?.error(Problem::Contradiction {
-                field: format!("{place}{field}"),
-                value,
-                other,
-                other_value,
-            }))
+            Err(element.child(&place, field)?.fault(
+                format!("{place}{field} = {value}, but {other} = {other_value}"),
+                format!("make it agree with {other}, or fetch the file again from HaTT"),
+            ))
         };
         let ordinal = (index + 1) as f64;
-        agree(
-            "modNum",
-            stated,
-            "its place in the file".into(),
-            ordinal,
-            0.0,
-        )?;
+        agree("modNum", stated, "its place in the file", ordinal, 0.0)?;
         for (field, list, value, border) in [
             ("speedMod", "speedList", speed_mm_s, self.max_speed_mm_s),
             ("forceMod", "forceList", force_n, self.max_force_n),
         ] {
             let found = number(field, "not negative", 0.0, f64::MAX)?;
             let slack = border * BORDER_TOLERANCE;
-            agree(field, found, format!("{list}[{index}]"), value, slack)?;
+            agree(field, found, &format!("{list}[{index}]"), value, slack)?;
         }
         let (ar, ma) = (
             self.filter(
@@ -309,17 +282,14 @@ impl Header {
         element: &Element<'_, '_>,
         place: &str,
         (coefficients, frequencies): (&str, &str),
-        (stated_by, order): (&'static str, usize),
-    ) -> Result<Filter, HattError> {
+        (stated_by, order): (&str, usize),
+    ) -> Result<Filter, Fault> {
         let field = format!("{place}{coefficients}");
         let holder = element.child(place, coefficients)?;
         let monic = holder.list(&field, (order + 1, stated_by), "finite", |_| true)?;
         if monic[0] != 1.0 {
-            return Err(holder.error(Problem::OutOfRange {
-                field: format!("{field}[0]"),
-                value: monic[0],
-                rule: "1, as the polynomial is monic".into(),
-            }));
+            let rule = "1, as the polynomial is monic";
+            return Err(holder.out_of_range(format_args!("{field}[0]"), monic[0], rule));
         }
         let lsf = element.child(place, frequencies)?.list(
             &format!("{place}{frequencies}"),
@@ -328,7 +298,14 @@ impl Header {
             // Six decimals may round π up.
             |v| (0.0..=std::f64::consts::PI + 1e-6).contains(&v),
         )?;
-        filter::choose(monic, lsf, self.sample_rate_hz)
-            .map_err(|distance_db| holder.error(Problem::NoUsableFilter { field, distance_db }))
+        filter::choose(monic, lsf, self.sample_rate_hz).map_err(|distance_db| {
+            let what = format!(
+                "{field}: the line spectral frequencies are {distance_db:.3} dB from the coefficients, \
+                 whose polynomial has roots on or outside the unit circle"
+            );
+            let remedy =
+                "compare ARcoeff/MAcoeff and ARlsf/MAlsf of this model with the original file";
+            holder.fault(what, remedy)
+        })
     }
 }

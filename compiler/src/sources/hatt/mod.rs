@@ -39,10 +39,9 @@
 //! let texture = hatt::to_model(&material, "board.xml", 0);
 //! assert_eq!(texture.grid.triangles, material.triangles);
 //! assert!(texture.provenance.taps_synthetic); // HaTT models strokes, not taps
-//! # Ok::<(), hatt::HattError>(())
+//! # Ok::<(), asperity_io::diagnostic::Fault>(())
 //! ```
 
-mod error;
 mod filter;
 mod material;
 mod source;
@@ -51,7 +50,6 @@ mod tests;
 mod texture;
 mod xml;
 
-pub use error::{HattError, Problem};
 pub use filter::Filter;
 pub use material::{Material, SourceModel, parse};
 pub use source::{BUDGET_DB, Hatt, Recomputed, bytes, files, refuse_namesakes};

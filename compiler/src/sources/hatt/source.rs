@@ -1,18 +1,17 @@
 //! HaTT files as sources.
 
 use super::{
-    error::{HattError, Problem},
     material::{self, Material, SourceModel},
     texture::to_model,
 };
 use crate::{
     compiled::{Compiled, ErrorReference},
-    learned::{LearnedModel, ModelError, complete},
+    learned::{LearnedModel, complete},
     pipeline::{Pass, Pipeline, Request},
     sources::{Findings, ManifestSource, Source, SourceOutput, Tools, key::Parts},
 };
 use asperity_io::{
-    diagnostic::{Diagnostic, Failure},
+    diagnostic::{Failure, Fault},
     input::{self, InputProblem, Kind},
 };
 use asperity_texture::{model::TextureModel, signal::spectrum::ArmaModel};
@@ -21,7 +20,6 @@ use std::{
     path::{Path, PathBuf},
     sync::Arc,
 };
-use thiserror::Error;
 
 /// Largest RMS log-spectral error of a vertex against its source, dB.
 pub const BUDGET_DB: f64 = 0.5;
@@ -29,14 +27,9 @@ pub const BUDGET_DB: f64 = 0.5;
 /// The HaTT files of a path: itself, or every `.xml` file of a folder in order of name.
 ///
 /// # Errors
-/// [`HattError`] for a path that cannot be read or a folder without such files.
-pub fn files(path: &Path) -> Result<Vec<PathBuf>, HattError> {
-    let fail = |problem| HattError {
-        file: path.to_owned(),
-        line: None,
-        problem,
-    };
-    let unreadable = |e| fail(Problem::Input(InputProblem::Unreadable(e)));
+/// [`Fault`] for a path that cannot be read or a folder without such files.
+pub fn files(path: &Path) -> Result<Vec<PathBuf>, Fault> {
+    let unreadable = |error| Fault::from(InputProblem::Unreadable(error)).at(path);
     let metadata = std::fs::metadata(path).map_err(unreadable)?;
     if !metadata.is_dir() {
         return Ok(vec![path.to_owned()]);
@@ -52,7 +45,8 @@ pub fn files(path: &Path) -> Result<Vec<PathBuf>, HattError> {
         }
     }
     if found.is_empty() {
-        return Err(fail(Problem::EmptyFolder));
+        let remedy = "give the folder that holds the `Models_<name>.xml` files";
+        return Err(Fault::new("has no .xml file", remedy).at(path));
     }
     found.sort();
     Ok(found)
@@ -65,16 +59,9 @@ pub fn refuse_namesakes(materials: &[Hatt], results: &mut [Result<Compiled, Fail
         let Ok(compiled) = result else { continue };
         let name = &compiled.texture.name;
         if let Some(other) = first_with.get(name) {
-            let problem = Problem::SameMaterial {
-                name: name.clone(),
-                other: other.display().to_string(),
-            };
-            *result = Err(HattError {
-                file: file.clone(),
-                line: None,
-                problem,
-            }
-            .into());
+            let what = format!("material {name:?} is also in {}", other.display());
+            let remedy = "rename one <material>, or import the two files to different outputs";
+            *result = Err(Fault::new(what, remedy).at(file).into());
         } else {
             first_with.insert(name.clone(), file);
         }
@@ -124,10 +111,7 @@ impl Source for Hatt {
             let model = tools.model()?;
             pipeline
                 .run(Pass::Complete, || complete(&mut texture, model))
-                .map_err(|cause| NotCompleted {
-                    file: self.file.clone(),
-                    cause,
-                })?;
+                .map_err(|cause| Fault::of(&cause).at(&self.file).field("taps"))?;
         }
         let recomputed =
             |m: &SourceModel| usize::from(m.ar.recomputed) + usize::from(m.ma.recomputed);
@@ -160,40 +144,18 @@ impl Findings for Recomputed {
     }
 }
 
-/// The learned model could not decode the taps.
-#[derive(Debug, Error)]
-#[error("{file}: taps: {cause}", file = file.display())]
-struct NotCompleted {
-    file: PathBuf,
-    cause: ModelError,
-}
-
-impl Diagnostic for NotCompleted {
-    fn remedy(&self) -> String {
-        self.cause.remedy()
-    }
-}
-
 /// The bytes of a file, at most as many as a material may have.
 ///
 /// # Errors
-/// [`HattError`] for a file that cannot be read or is too large.
-pub fn bytes(file: &Path) -> Result<Vec<u8>, HattError> {
-    input::read(file, Kind::Hatt).map_err(|problem| unreadable(file, problem))
+/// [`Fault`] for a file that cannot be read or is too large.
+pub fn bytes(file: &Path) -> Result<Vec<u8>, Fault> {
+    input::read(file, Kind::Hatt).map_err(|problem| Fault::from(problem).at(file))
 }
 
-fn unreadable(file: &Path, problem: InputProblem) -> HattError {
-    HattError {
-        file: file.to_owned(),
-        line: None,
-        problem: problem.into(),
-    }
-}
-
-fn read(file: &Path, tools: &Tools<'_>) -> Result<(Material, TextureModel), HattError> {
+fn read(file: &Path, tools: &Tools<'_>) -> Result<(Material, TextureModel), Fault> {
     let source = tools
         .file(file, Kind::Hatt)
-        .map_err(|problem| unreadable(file, problem))?;
+        .map_err(|problem| Fault::from(problem).at(file))?;
     let material = material::parse(file, &source)?;
     let source_name = file.file_name().unwrap_or_default().to_string_lossy();
     let whole = to_model(&material, &source_name, crc32fast::hash(&source));
@@ -201,7 +163,7 @@ fn read(file: &Path, tools: &Tools<'_>) -> Result<(Material, TextureModel), Hatt
 }
 
 /// Taps from the AR grid, by the learned model.
-fn complete(texture: &mut TextureModel, model: &LearnedModel) -> Result<(), ModelError> {
+fn complete(texture: &mut TextureModel, model: &LearnedModel) -> Result<(), Fault> {
     texture.taps = complete::taps_of_grid(model, &texture.grid, &texture.gains)?;
     texture.provenance.notes = format!(
         "Taps decoded from the AR grid by the learned model {} (trained on synthetic taps). {}",

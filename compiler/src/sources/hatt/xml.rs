@@ -1,22 +1,25 @@
 //! Reads numbers and lists from an untrusted XML document, and names the line of what is wrong.
 
-use super::error::{HattError, Problem};
-use asperity_io::input;
+use asperity_io::{diagnostic::Fault, input};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::{fmt::Display, path::Path};
 
 /// Most XML nodes accepted; HaTT materials have below 20,000.
 const MAX_NODES: u32 = 1_000_000;
 
+/// Remedy for a file of another kind.
+pub(super) const WRONG_FILE: &str =
+    "give a model file of the Penn Haptic Texture Toolkit, `Models_<name>.xml`";
+/// Remedy for a value that cannot be right.
+pub(super) const WRONG_VALUE: &str = "correct the value, or fetch the file again from HaTT";
+
 /// Parses a document: UTF-8, no document type, bounded.
-pub(super) fn parse<'a>(file: &Path, bytes: &'a [u8]) -> Result<Document<'a>, HattError> {
-    let fail = |line, problem| HattError {
-        file: file.to_owned(),
-        line,
-        problem,
-    };
-    let text = input::text(bytes).map_err(|e| fail(None, e.into()))?;
-    input::check_nesting(text).map_err(|e| fail(Some(e.line), e.problem.into()))?;
+pub(super) fn parse<'a>(file: &Path, bytes: &'a [u8]) -> Result<Document<'a>, Fault> {
+    let text = input::text(bytes).map_err(|problem| Fault::from(problem).at(file))?;
+    input::check_nesting(text).map_err(|error| {
+        let fault = Fault::new(error.problem, WRONG_FILE).at(file);
+        fault.line(u64::from(error.line))
+    })?;
     let options = ParsingOptions {
         allow_dtd: false,
         nodes_limit: MAX_NODES,
@@ -27,12 +30,17 @@ pub(super) fn parse<'a>(file: &Path, bytes: &'a [u8]) -> Result<Document<'a>, Ha
             let line = text
                 .lines()
                 .position(|line| line.contains("<!DOCTYPE"))
-                .map(|index| index as u32 + 1);
-            fail(line, Problem::Doctype)
+                .map(|index| index as u64 + 1);
+            let what = "declares a document type or entities, which is refused";
+            let remedy = "remove the <!DOCTYPE …> declaration; HaTT files have none";
+            Fault::new(what, remedy).at(file).line(line)
         }
         other => {
-            let line = other.pos().row;
-            fail(Some(line), Problem::Malformed(other.to_string()))
+            let what = format!("not well-formed XML: {other}");
+            let remedy = "the file is damaged or incomplete: fetch it again from HaTT";
+            Fault::new(what, remedy)
+                .at(file)
+                .line(u64::from(other.pos().row))
         }
     })
 }
@@ -56,14 +64,32 @@ impl<'a, 'i> Element<'a, 'i> {
         self.node.tag_name().name()
     }
 
-    /// An error at this element.
-    pub(super) fn error(&self, problem: Problem) -> HattError {
+    /// A fault at this element.
+    pub(super) fn fault(&self, what: impl Display, remedy: impl Into<Box<str>>) -> Fault {
         let start = self.node.range().start;
-        HattError {
-            file: self.file.to_owned(),
-            line: Some(self.node.document().text_pos_at(start).row),
-            problem,
+        let line = u64::from(self.node.document().text_pos_at(start).row);
+        Fault::new(what, remedy).at(self.file).line(line)
+    }
+
+    /// The fault of a number outside its range; NaN and infinities always are.
+    pub(super) fn out_of_range(&self, field: impl Display, value: f64, rule: &str) -> Fault {
+        self.fault(format!("{field} = {value}, must be {rule}"), WRONG_VALUE)
+    }
+
+    /// Refuses a list that has another length than the file states elsewhere.
+    pub(super) fn check_count(
+        &self,
+        field: &str,
+        found: usize,
+        (expected, stated_by): (usize, &str),
+    ) -> Result<(), Fault> {
+        if found == expected {
+            return Ok(());
         }
+        let what = format!("{field}: {found} found, {expected} expected from {stated_by}");
+        let remedy =
+            format!("make the list and {stated_by} agree, or fetch the file again from HaTT");
+        Err(self.fault(what, remedy))
     }
 
     /// Child elements of a name, in document order.
@@ -79,16 +105,18 @@ impl<'a, 'i> Element<'a, 'i> {
     }
 
     /// The one child element of a name; `place` says where, for an error.
-    pub(super) fn child(&self, place: &str, name: &str) -> Result<Self, HattError> {
+    pub(super) fn child(&self, place: &str, name: &str) -> Result<Self, Fault> {
         let found = self.children(name);
         match found.as_slice() {
             [one] => Ok(*one),
-            [] => Err(self.error(Problem::Missing {
-                field: format!("{place}{name}"),
-            })),
-            [_, second, ..] => Err(second.error(Problem::Repeated {
-                field: format!("{place}{name}"),
-            })),
+            [] => Err(self.fault(
+                format!("<{place}{name}> is missing"),
+                format!("add <{place}{name}>, or fetch the file again from HaTT"),
+            )),
+            [_, second, ..] => Err(second.fault(
+                format!("<{place}{name}> appears twice"),
+                format!("keep one <{place}{name}>"),
+            )),
         }
     }
 
@@ -103,21 +131,15 @@ impl<'a, 'i> Element<'a, 'i> {
         field: impl Display,
         rule: &str,
         accept: impl Fn(f64) -> bool,
-    ) -> Result<f64, HattError> {
+    ) -> Result<f64, Fault> {
         let value: f64 = self.text().parse().map_err(|_| {
-            self.error(Problem::NotANumber {
-                field: field.to_string(),
-                value: self.text().chars().take(40).collect(),
-            })
+            let text: String = self.text().chars().take(40).collect();
+            self.fault(format!("{field} = {text:?} is not a number"), WRONG_VALUE)
         })?;
         if value.is_finite() && accept(value) {
             Ok(value)
         } else {
-            Err(self.error(Problem::OutOfRange {
-                field: field.to_string(),
-                value,
-                rule: rule.to_owned(),
-            }))
+            Err(self.out_of_range(field, value, rule))
         }
     }
 
@@ -127,7 +149,7 @@ impl<'a, 'i> Element<'a, 'i> {
         field: impl Display,
         min: usize,
         max: usize,
-    ) -> Result<usize, HattError> {
+    ) -> Result<usize, Fault> {
         let rule = format!("a whole number from {min} to {max}");
         let value = self.number(field, &rule, |v| {
             v.fract() == 0.0 && v >= min as f64 && v <= max as f64
@@ -135,23 +157,16 @@ impl<'a, 'i> Element<'a, 'i> {
         Ok(value as usize)
     }
 
-    /// The numbers of the `<value>` children, `expected` of them.
+    /// The numbers of the `<value>` children, as many as `count` states.
     pub(super) fn list(
         &self,
         field: &str,
-        (expected, stated_by): (usize, &'static str),
+        count: (usize, &str),
         rule: &str,
         accept: impl Fn(f64) -> bool,
-    ) -> Result<Vec<f64>, HattError> {
+    ) -> Result<Vec<f64>, Fault> {
         let values = self.children("value");
-        if values.len() != expected {
-            return Err(self.error(Problem::Count {
-                field: field.to_owned(),
-                found: values.len(),
-                expected,
-                stated_by,
-            }));
-        }
+        self.check_count(field, values.len(), count)?;
         values
             .iter()
             .enumerate()

@@ -1,13 +1,14 @@
 //! Attributes of latents, each part measured once: a search comes back to where it began, and moves one part while
 //! the others stay.
 
-use super::{error::EditError, latent_editor::LatentEditor};
+use super::latent_editor::LatentEditor;
 use crate::{
     edit_memory::Latents,
     learned::{Latent, friction, texture},
     passes::reduce::{reduce_grid, reduce_taps},
     pipeline::{Pipeline, Request},
 };
+use asperity_io::diagnostic::Fault;
 use asperity_texture::{
     model::{
         ModelGrid, TapBank,
@@ -53,16 +54,16 @@ impl<'a> AttributeCache<'a> {
     }
 
     /// The attributes of what these latents decode to, before anything is reduced.
-    pub(super) fn decoded(&self, latents: &Latents) -> Result<Attributes, EditError> {
+    pub(super) fn decoded(&self, latents: &Latents) -> Result<Attributes, Fault> {
         self.attributes(latents, State::Decoded)
     }
 
     /// The attributes of the asset that these latents give: what is left out counts no more.
-    pub(super) fn kept(&self, latents: &Latents) -> Result<Attributes, EditError> {
+    pub(super) fn kept(&self, latents: &Latents) -> Result<Attributes, Fault> {
         self.attributes(latents, State::Kept)
     }
 
-    fn attributes(&self, latents: &Latents, state: State) -> Result<Attributes, EditError> {
+    fn attributes(&self, latents: &Latents, state: State) -> Result<Attributes, Fault> {
         let shift = &latents.shift;
         let vibration = self
             .vibrations
@@ -81,7 +82,7 @@ impl<'a> AttributeCache<'a> {
         slide: &Latent,
         rough_db: f64,
         state: State,
-    ) -> Result<Option<Vibration>, EditError> {
+    ) -> Result<Option<Vibration>, Fault> {
         let model = self.editor.prompt_compiler.model();
         let mut grid = self.grids.once(slide, || {
             let decoded = model.decode_grid(slide)?;
@@ -95,7 +96,7 @@ impl<'a> AttributeCache<'a> {
         Ok(self.meter.borrow_mut().vibration(&grid))
     }
 
-    fn hard_hz(&self, tap: &Latent, hard: f64, state: State) -> Result<Option<f64>, EditError> {
+    fn hard_hz(&self, tap: &Latent, hard: f64, state: State) -> Result<Option<f64>, Fault> {
         let model = self.editor.prompt_compiler.model();
         let gains = defaults::gains();
         let mut bank = self.banks.once(tap, || {
@@ -128,7 +129,7 @@ impl<K, V> Default for Memo<K, V> {
 
 impl<K: Copy + PartialEq, V: Clone> Memo<K, V> {
     /// Returns the result for this key, computing it by `find` on the first use.
-    fn once(&self, key: &K, find: impl FnOnce() -> Result<V, EditError>) -> Result<V, EditError> {
+    fn once(&self, key: &K, find: impl FnOnce() -> Result<V, Fault>) -> Result<V, Fault> {
         // Searches take tens of looks. A key with a NaN is looked at again.
         let known = self.0.borrow().iter().find(|(of, _)| of == key).cloned();
         if let Some((_, value)) = known {

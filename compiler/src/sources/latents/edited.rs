@@ -2,7 +2,6 @@
 
 use super::{
     attribute_cache::AttributeCache,
-    error::EditError,
     latent_editor::LatentEditor,
     solve::{along, reach},
 };
@@ -11,6 +10,7 @@ use crate::{
     learned::Latent,
     pipeline::Request,
 };
+use asperity_io::diagnostic::Fault;
 use asperity_texture::model::{attributes::Attributes, shift::Shift};
 
 /// Times that a way through the latent space is corrected by what is kept at its end.
@@ -53,7 +53,7 @@ impl LatentEditor<'_> {
         latents: &Latents,
         sliders: &Sliders,
         request: &Request,
-    ) -> Result<Latents, EditError> {
+    ) -> Result<Latents, Fault> {
         self.searched(latents, sliders, &AttributeCache::new(self, request))
     }
 
@@ -63,7 +63,7 @@ impl LatentEditor<'_> {
         latents: &Latents,
         sliders: &Sliders,
         cache: &AttributeCache<'_>,
-    ) -> Result<Latents, EditError> {
+    ) -> Result<Latents, Fault> {
         if sliders.are_still() {
             return Ok(*latents);
         }
@@ -87,7 +87,7 @@ impl LatentEditor<'_> {
         sliders: &Sliders,
         cache: &AttributeCache<'_>,
         before: &Attributes,
-    ) -> Result<Latents, EditError> {
+    ) -> Result<Latents, Fault> {
         let mut aim = *sliders;
         let mut best = (f64::INFINITY, *latents);
         for _ in 0..CORRECTIONS {
@@ -118,7 +118,7 @@ impl LatentEditor<'_> {
         sliders: &Sliders,
         cache: &AttributeCache<'_>,
         before: &Attributes,
-    ) -> Result<(Missing, Latents), EditError> {
+    ) -> Result<(Missing, Latents), Fault> {
         let mut now = latents;
         let mut best: Option<(Missing, Latents)> = None;
         for _ in 0..=CLOSINGS {
@@ -164,7 +164,7 @@ impl LatentEditor<'_> {
         sliders: &Sliders,
         aim: &Sliders,
         cache: &AttributeCache<'_>,
-    ) -> Result<Latents, EditError> {
+    ) -> Result<Latents, Fault> {
         let before = cache.decoded(latents)?;
         let mut edited = *latents;
         let asked = |axis: Axis| sliders.along(axis) != 0.0;
@@ -223,7 +223,7 @@ impl LatentEditor<'_> {
         latents: &Latents,
         axes: &[Axis],
         cache: &AttributeCache<'_>,
-    ) -> Result<Option<Vec<f64>>, EditError> {
+    ) -> Result<Option<Vec<f64>>, Fault> {
         let attributes = cache.decoded(latents)?;
         let places = axes.iter().map(|&axis| self.scale.place(axis, &attributes));
         Ok(places.collect())

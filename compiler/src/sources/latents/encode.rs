@@ -1,11 +1,12 @@
 //! The latent of a recording, or of a part of one.
 
-use super::{error::EditError, latent_editor::LatentEditor};
+use super::latent_editor::LatentEditor;
 use crate::{
     edit_memory::Latents,
     learned::{Present, complete},
     passes::reduce::Reference,
 };
+use asperity_io::diagnostic::Fault;
 use asperity_texture::model::TextureModel;
 use std::str::FromStr;
 
@@ -69,17 +70,18 @@ pub struct Encoded {
 /// The latent of a texture.
 ///
 /// # Errors
-/// [`EditError`] for a part that the texture does not have, or when a network fails.
+/// [`Fault`] for a part that the texture does not have, or when a network fails.
 pub fn encode(
     editor: &LatentEditor<'_>,
     texture: &TextureModel,
     part: Part,
-) -> Result<Encoded, EditError> {
+) -> Result<Encoded, Fault> {
     let model = editor.prompt_compiler().model();
     let description = model.description();
-    let missing = |part| EditError::NoPart {
-        name: texture.name.clone(),
-        part,
+    let missing = |part: &str| {
+        let what = format!("{:?} has no {part} to encode", texture.name);
+        let remedy = "encode the part that it has: --part taps or --part slide";
+        Fault::new(what, remedy)
     };
     let sounds = texture
         .grid

@@ -1,12 +1,12 @@
 //! Which words moved which attribute, by occlusion: the prompt is read again without each word.
 
-use super::{error::EditError, latent_editor::LatentEditor};
+use super::latent_editor::LatentEditor;
 use crate::{
     edit_memory::{AXES, Latents},
     learned::{Latent, description::LATENT},
     sources::prompt::{self, Interpretation},
 };
-use asperity_io::shown::rounded;
+use asperity_io::{diagnostic::Fault, shown::rounded};
 use asperity_texture::model::attributes::{self, Attributes};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -51,8 +51,8 @@ const MOST_TOGETHER: usize = 6;
 /// materials is left.
 ///
 /// # Errors
-/// [`EditError`] for an empty prompt or a failing network.
-pub fn explain(editor: &LatentEditor<'_>, text: &str) -> Result<Explanation, EditError> {
+/// [`Fault`] for an empty prompt or a failing network.
+pub fn explain(editor: &LatentEditor<'_>, text: &str) -> Result<Explanation, Fault> {
     let words: Vec<&str> = text.split_whitespace().take(MOST_WORDS).collect();
     let telling: Vec<usize> = (0..words.len()).filter(|&n| tells(words[n])).collect();
     let together: &[usize] = if telling.len() <= MOST_TOGETHER {
@@ -87,7 +87,7 @@ pub fn explain(editor: &LatentEditor<'_>, text: &str) -> Result<Explanation, Edi
     let read = texts.iter().filter(|text| !text.is_empty());
     let read: Vec<&str> = read.map(String::as_str).collect();
     editor.prompt_compiler().read_ahead(&read);
-    let places: Result<Vec<[f64; 4]>, EditError> =
+    let places: Result<Vec<[f64; 4]>, Fault> =
         texts.par_iter().map(|text| places(editor, text)).collect();
     let places = places?;
     let count = together.len();
@@ -147,7 +147,7 @@ fn tells(word: &str) -> bool {
 }
 
 /// Where a text lies on the sliders; the mean of all materials where it is empty.
-fn places(editor: &LatentEditor<'_>, text: &str) -> Result<[f64; 4], EditError> {
+fn places(editor: &LatentEditor<'_>, text: &str) -> Result<[f64; 4], Fault> {
     let attributes = if prompt::check(text).is_ok() {
         seen(editor, text)?
     } else {
@@ -156,7 +156,7 @@ fn places(editor: &LatentEditor<'_>, text: &str) -> Result<[f64; 4], EditError> 
     Ok(AXES.map(|axis| editor.scale().place(axis, &attributes).unwrap_or(0.0)))
 }
 
-fn seen(editor: &LatentEditor<'_>, text: &str) -> Result<Attributes, EditError> {
+fn seen(editor: &LatentEditor<'_>, text: &str) -> Result<Attributes, Fault> {
     Ok(attributes::of(&editor.prompt_compiler().texture(text)?))
 }
 

@@ -2,7 +2,7 @@
 
 use super::{
     attribute_cache::AttributeCache,
-    error::EditError,
+    fault::no_latent,
     scale::Scale,
     solve::Metric,
     source::{FromLatents, decode},
@@ -16,6 +16,7 @@ use crate::{
     views::preview,
 };
 use asperity_formats::Asset;
+use asperity_io::diagnostic::Fault;
 use asperity_texture::model::{Provenance, TextureModel, attributes::Attributes};
 
 /// Everything that mixes and edits: a prompt compiler's model, and where its sliders lie.
@@ -52,19 +53,21 @@ impl<'a> LatentEditor<'a> {
     /// Reads the edit memory of an asset.
     ///
     /// # Errors
-    /// [`EditError`] for an asset without a latent, or with one of another model.
-    pub fn memory(&self, asset: &Asset<'_>) -> Result<Memory, EditError> {
-        let name = asset.name().to_owned();
-        let memory = remembered(asset)?.ok_or_else(|| EditError::NoLatent(name.clone()))?;
+    /// [`Fault`] for an asset without a latent, or with one of another model.
+    pub fn memory(&self, asset: &Asset<'_>) -> Result<Memory, Fault> {
+        let name = asset.name();
+        let memory = remembered(asset)?.ok_or_else(|| no_latent(name))?;
         let model = self.prompt_compiler.model();
         if model.has_latent_of(memory.model_crc32) {
             Ok(memory)
         } else {
-            Err(EditError::OtherModel {
-                name,
-                found: memory.model_crc32,
-                expected: model.crc32(),
-            })
+            let what = format!(
+                "{name:?} was decoded with model {:08x}, but this is model {:08x}",
+                memory.model_crc32,
+                model.crc32()
+            );
+            let remedy = "give the folder of its model with --model, or compile its prompt again";
+            Err(Fault::new(what, remedy))
         }
     }
 
@@ -72,7 +75,7 @@ impl<'a> LatentEditor<'a> {
     ///
     /// # Errors
     /// As [`memory`](Self::memory).
-    pub fn remembered(&self, asset: &Asset<'_>) -> Result<FromLatents, EditError> {
+    pub fn remembered(&self, asset: &Asset<'_>) -> Result<FromLatents, Fault> {
         Ok(FromLatents::remembered(raise(asset), self.memory(asset)?))
     }
 
@@ -102,17 +105,17 @@ impl<'a> LatentEditor<'a> {
     /// The texture of these latents before it is reduced.
     ///
     /// # Errors
-    /// [`EditError::Model`] when a network fails.
-    pub fn texture(&self, latents: &Latents) -> Result<TextureModel, EditError> {
+    /// [`Fault`] when a network fails.
+    pub fn texture(&self, latents: &Latents) -> Result<TextureModel, Fault> {
         let model = self.prompt_compiler.model();
-        Ok(decode(model, latents, "", Provenance::default())?)
+        decode(model, latents, "", Provenance::default())
     }
 
     /// The attributes of these latents, before anything is reduced.
     ///
     /// # Errors
     /// As [`texture`](Self::texture).
-    pub fn attributes(&self, latents: &Latents) -> Result<Attributes, EditError> {
+    pub fn attributes(&self, latents: &Latents) -> Result<Attributes, Fault> {
         AttributeCache::new(self, &Request::default()).decoded(latents)
     }
 
@@ -124,7 +127,7 @@ impl<'a> LatentEditor<'a> {
         &self,
         latents: &Latents,
         request: &Request,
-    ) -> Result<Attributes, EditError> {
+    ) -> Result<Attributes, Fault> {
         AttributeCache::new(self, request).kept(latents)
     }
 }

@@ -1,7 +1,7 @@
 //! Whatever mixes or edits textures: their latents, how the result is compiled, and what to report of it.
 
 use super::{
-    Edit, EditError, LatentEditor, Part, Sliders, attributes_line, encode::encode,
+    Edit, LatentEditor, Part, Sliders, attributes_line, encode::encode, fault::nothing_asked,
     source::FromLatents,
 };
 use crate::{
@@ -13,7 +13,10 @@ use crate::{
     views::preview,
 };
 use asperity_formats::{Asset, limits::MAX_NAME_BYTES};
-use asperity_io::shown::{rounded, shortened};
+use asperity_io::{
+    diagnostic::Fault,
+    shown::{rounded, shortened},
+};
 use asperity_texture::model::{
     Provenance,
     attributes::{self, Attributes},
@@ -114,7 +117,7 @@ impl LatentEditor<'_> {
         b: &Asset<'_>,
         t: f64,
         options: &MixOptions,
-    ) -> Result<Mix, EditError> {
+    ) -> Result<Mix, Fault> {
         let (from, to) = (self.remembered(a)?, self.remembered(b)?);
         let provenance = self.prompt_compiler.model().provenance("blend");
         let mut source = FromLatents::between(&from, &to, t, provenance);
@@ -140,7 +143,7 @@ impl LatentEditor<'_> {
         slide: &Asset<'_>,
         friction: Option<&Asset<'_>>,
         options: &MixOptions,
-    ) -> Result<Mix, EditError> {
+    ) -> Result<Mix, Fault> {
         let request = options.request(self, slide);
         let friction = self.remembered(friction.unwrap_or(slide))?;
         let (tap, slide) = (self.remembered(tap)?, self.remembered(slide)?);
@@ -164,15 +167,15 @@ impl LatentEditor<'_> {
     /// A texture after an edit, or with its last edit taken back where there is none.
     ///
     /// # Errors
-    /// As [`edit`](Self::edit) and [`FromLatents::undo`]; [`EditError::NothingAsked`] for an edit that moves nothing.
+    /// As [`edit`](Self::edit) and [`FromLatents::undo`]; a usage error for an edit that moves nothing.
     pub fn change(
         &self,
         asset: &Asset<'_>,
         edit: Option<&Edit>,
         options: &MixOptions,
-    ) -> Result<Mix, EditError> {
+    ) -> Result<Mix, Fault> {
         if edit.is_some_and(Edit::is_still) {
-            return Err(EditError::NothingAsked);
+            return Err(nothing_asked());
         }
         let mut source = self.remembered(asset)?;
         // In the way that the asset was, with its name and provenance.
@@ -226,7 +229,7 @@ impl LatentEditor<'_> {
         asset: &Asset<'_>,
         part: Option<Part>,
         options: &MixOptions,
-    ) -> Result<Mix, EditError> {
+    ) -> Result<Mix, Fault> {
         let texture = raise(asset);
         let part = part.unwrap_or_else(|| Part::recorded(&texture));
         let encoded = encode(self, &texture, part)?;

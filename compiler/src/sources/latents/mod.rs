@@ -29,8 +29,8 @@
 mod attribute_cache;
 mod edited;
 mod encode;
-mod error;
 mod explain;
+mod fault;
 mod latent_editor;
 mod loudness;
 mod mix;
@@ -41,12 +41,12 @@ mod source;
 mod worded;
 
 pub use crate::edit_memory::{
-    AXES, Axis, History, HistoryError, Ingredient, Latents, Memory, Origin, Sliders, Step,
-    remembered,
+    AXES, Axis, History, Ingredient, Latents, Memory, Origin, Sliders, Step, remembered,
 };
 pub use encode::{Encoded, Part, encode};
-pub use error::EditError;
 pub use explain::{Explanation, WordEffect, explain};
+pub use fault::nothing_asked;
+pub(crate) use fault::{no_latent, not_understood};
 pub use latent_editor::LatentEditor;
 pub use loudness::equal_loudness;
 pub use mix::{Mix, MixOptions, MixPreview, MixReport};

@@ -1,13 +1,13 @@
 //! Latents as a source: a blend, a composition, an edit, a recording that was encoded.
 
-use super::{Edit, EditError, LatentEditor, Part, Worded};
+use super::{Edit, LatentEditor, Part, Worded};
 use crate::{
-    edit_memory::{History, HistoryError, Ingredient, Latents, Memory, Origin, Step},
-    learned::{Decoded, LearnedModel, ModelError, friction, texture},
+    edit_memory::{History, Ingredient, Latents, Memory, Origin, Step, damaged},
+    learned::{Decoded, LearnedModel, friction, texture},
     pipeline::{Pass, Pipeline, Request, Ringing},
     sources::{Source, SourceOutput, Tools},
 };
-use asperity_io::diagnostic::Failure;
+use asperity_io::diagnostic::{Failure, Fault};
 use asperity_texture::model::{FrictionLaw, Provenance, TextureModel, shift::adjust};
 
 /// A texture that is decoded from latents.
@@ -116,7 +116,7 @@ impl FromLatents {
         editor: &LatentEditor<'_>,
         edit: &Edit,
         request: &Request,
-    ) -> Result<Worded, EditError> {
+    ) -> Result<Worded, Fault> {
         let done = editor.edit(&self.latents, edit, request)?;
         let step = Step::new(done.sliders, &self.latents);
         self.history.steps.push(match edit {
@@ -134,15 +134,15 @@ impl FromLatents {
     /// Takes the last edit back.
     ///
     /// # Errors
-    /// [`EditError::NothingToUndo`], or [`EditError::History`] for damaged latents.
-    pub fn undo(&mut self) -> Result<(), EditError> {
+    /// [`Fault`] where there is no edit, or its latents are damaged.
+    pub fn undo(&mut self) -> Result<(), Fault> {
         let Some(last) = self.history.steps.pop() else {
-            return Err(EditError::NothingToUndo(self.name.clone()));
+            let what = format!("{:?} has no edit to undo", self.name);
+            return Err(Fault::new(what, "leave --undo out"));
         };
-        self.latents = last.before().ok_or_else(|| HistoryError {
-            name: self.name.clone(),
-            message: "the latents before the last edit are damaged".into(),
-        })?;
+        let before = last.before();
+        self.latents = before
+            .ok_or_else(|| damaged(&self.name, "the latents before the last edit are damaged"))?;
         Ok(())
     }
 }
@@ -177,13 +177,13 @@ impl Source for FromLatents {
 /// The texture of these latents before it is reduced.
 ///
 /// # Errors
-/// [`ModelError`] when a network fails.
+/// [`Fault`] when a network fails.
 pub fn decode(
     model: &LearnedModel,
     latents: &Latents,
     name: &str,
     provenance: Provenance,
-) -> Result<TextureModel, ModelError> {
+) -> Result<TextureModel, Fault> {
     let description = model.description();
     let decoded = Decoded {
         grid: model.decode_grid(&latents.slide)?,

@@ -1,7 +1,8 @@
 //! Edits, along the sliders or in words: "less gritty, more waxy".
 
 use super::{
-    attribute_cache::AttributeCache, error::EditError, latent_editor::LatentEditor, scale::Scale,
+    attribute_cache::AttributeCache, fault::not_understood, latent_editor::LatentEditor,
+    scale::Scale,
 };
 use crate::{
     edit_memory::{Axis, Latents, Sliders},
@@ -11,6 +12,7 @@ use crate::{
         phrase::{Towards, relative},
     },
 };
+use asperity_io::diagnostic::Fault;
 use asperity_texture::model::{attributes::Attributes, shift::Shift};
 
 /// An edit.
@@ -54,12 +56,7 @@ impl LatentEditor<'_> {
     ///
     /// # Errors
     /// As [`edited`](Self::edited) and [`worded`](Self::worded).
-    pub fn edit(
-        &self,
-        latents: &Latents,
-        edit: &Edit,
-        request: &Request,
-    ) -> Result<Worded, EditError> {
+    pub fn edit(&self, latents: &Latents, edit: &Edit, request: &Request) -> Result<Worded, Fault> {
         match edit {
             Edit::Steps(sliders) => Ok(Worded {
                 latents: self.edited(latents, sliders, request)?,
@@ -76,17 +73,17 @@ impl LatentEditor<'_> {
     /// the grammar of `compile` would move it from that of a material.
     ///
     /// # Errors
-    /// [`EditError::NotUnderstood`] where the words ask for nothing; else as
+    /// A usage error where the words ask for nothing; else as
     /// [`edited`](Self::edited).
     pub fn worded(
         &self,
         latents: &Latents,
         text: &str,
         request: &Request,
-    ) -> Result<Worded, EditError> {
+    ) -> Result<Worded, Fault> {
         let asked = relative(text);
         if asked.is_nothing() {
-            return Err(EditError::NotUnderstood(text.to_owned()));
+            return Err(not_understood(format_args!("the edit {text:?}")).usage());
         }
         let cache = AttributeCache::new(self, request);
         let base = cache.kept(latents)?;

@@ -1,11 +1,9 @@
 //! A document as a model: every value in its range, every list of its length, in its order.
 
-use super::{
-    error::{Fault, ModelFileProblem as Problem},
-    schema::{Document, Grid},
-};
-use crate::library::check_name;
+use super::schema::{Document, Grid};
+use crate::name;
 use asperity_formats::limits;
+use asperity_io::diagnostic::Fault;
 use asperity_texture::model::{
     self, Friction, FrictionLaw, Gains, GridVertex, ModelGrid, Numerator, TapBank, TextureModel,
     Wall, defaults, mesh, tap_synthesis, triangulate,
@@ -23,7 +21,7 @@ const HIGHEST_FACTOR: f32 = 7.999_878;
 /// # Errors
 /// The first field that an asset could not hold.
 pub(super) fn model(document: Document) -> Result<TextureModel, Fault> {
-    name("name", &document.name)?;
+    check_name("name", &document.name)?;
     let grid = grid(document.grid)?;
     let taps = taps(document.taps)?;
     let friction = friction(document.friction)?;
@@ -37,9 +35,10 @@ pub(super) fn model(document: Document) -> Result<TextureModel, Fault> {
         ),
         ("provenance.notes", &provenance.notes),
     ] {
-        let (bytes, limit) = (text.len(), MAX_TEXT_BYTES);
-        if bytes > limit {
-            return Err((field.into(), Problem::Text { bytes, limit }));
+        let bytes = text.len();
+        if bytes > MAX_TEXT_BYTES {
+            let what = format!("{bytes} bytes, but at most {MAX_TEXT_BYTES} are accepted");
+            return Err(Fault::new(what, "shorten the text").field(field));
         }
     }
     let mut notes = provenance.notes;
@@ -106,7 +105,17 @@ fn grid(stated: Grid) -> Result<ModelGrid, Fault> {
         self::vertex(index, vertex, numerator, (order, ma_order))?;
     }
     let vertices = stated.vertices;
-    let is_stated = stated.triangles.is_some();
+    let (field, remedy) = match stated.triangles {
+        Some(_) => (
+            "grid.triangles",
+            "triangulate the vertices so that they tile the rectangle from (0, 0), or leave \
+             triangles out",
+        ),
+        None => (
+            "grid.vertices",
+            "give vertices at the four corners of the rectangle from (0, 0): edge models",
+        ),
+    };
     let triangles = match stated.triangles {
         Some(triangles) => {
             length("grid.triangles", triangles.len(), 1, limits::MAX_TRIANGLES)?;
@@ -115,7 +124,8 @@ fn grid(stated: Grid) -> Result<ModelGrid, Fault> {
         None => triangulate::delaunay(&vertices),
     };
     if triangles.is_empty() {
-        return Err(("grid.vertices".into(), Problem::Flat));
+        let what = "all of them lie on one line, and a grid needs an area";
+        return Err(Fault::new(what, remedy).field(field));
     }
     places(&vertices)?;
     let grid = ModelGrid {
@@ -125,15 +135,7 @@ fn grid(stated: Grid) -> Result<ModelGrid, Fault> {
         vertices,
         triangles,
     };
-    mesh::check(&grid).map_err(|cause| {
-        let field = if is_stated {
-            "grid.triangles"
-        } else {
-            "grid.vertices"
-        };
-        let stated = is_stated;
-        (field.into(), Problem::Mesh { cause, stated })
-    })?;
+    mesh::check(&grid).map_err(|cause| Fault::new(cause, remedy).field(field))?;
     Ok(grid)
 }
 
@@ -149,7 +151,10 @@ fn vertex(
     up_to("force_n", stated.force_n, limits::MAX_FORCE_N)?;
     up_to("sigma_m_s2", stated.sigma_m_s2, limits::MAX_SIGMA_M_S2)?;
     frequencies(&field("lsf_rad"), &stated.lsf_rad, order)?;
-    let fault = |name: &str, what| Err((field(name), Problem::Numerator(what)));
+    let fault = |name: &str, what| {
+        let remedy = "set \"numerator\" to \"none\", \"nyquist\" or \"lsf\" as the models have it";
+        Err(Fault::new(what, remedy).field(field(name)))
+    };
     match (numerator, &stated.ma_lsf_rad) {
         (Numerator::Lsf, None) => fault("ma_lsf_rad", "is absent, but grid.numerator is \"lsf\""),
         (Numerator::Lsf, Some(zeros)) => {
@@ -172,12 +177,11 @@ fn places(vertices: &[GridVertex]) -> Result<(), Fault> {
         let first = before.map(place).position(|other| other == place(vertex));
         if let Some(first) = first {
             let (speed_mm_s, force_n) = place(vertex);
-            let problem = Problem::SamePlace {
-                first,
-                speed_mm_s,
-                force_n,
-            };
-            return Err((format!("grid.vertices[{index}]"), problem));
+            let what = format!(
+                "it lies at {speed_mm_s} mm/s and {force_n} N, as grid.vertices[{first}] does"
+            );
+            let fault = Fault::new(what, "leave one of them, or move it");
+            return Err(fault.field(format!("grid.vertices[{index}]")));
         }
     }
     Ok(())
@@ -187,12 +191,13 @@ fn places(vertices: &[GridVertex]) -> Result<(), Fault> {
 fn frequencies(field: &str, lsf_rad: &[f64], order: usize) -> Result<(), Fault> {
     if lsf_rad.len() != order {
         let rule = format!("{order} as at vertex 0");
-        let found = lsf_rad.len();
-        return Err((field.into(), Problem::Length { found, rule }));
+        return Err(wrong_length(field, lsf_rad.len(), &rule));
     }
     for (index, &omega) in lsf_rad.iter().enumerate() {
         if !(omega > 0.0 && omega < PI) {
-            return Err((format!("{field}[{index}]"), Problem::Frequency(omega)));
+            let what = format!("{omega} rad, must be above 0 and below π");
+            let remedy = "give frequencies in radians a sample, 2π·f / sample_rate_hz for f in Hz";
+            return Err(Fault::new(what, remedy).field(format!("{field}[{index}]")));
         }
     }
     ascending(lsf_rad.iter().copied(), |index| format!("{field}[{index}]"))
@@ -218,7 +223,7 @@ fn taps(stated: Option<TapBank>) -> Result<TapBank, Fault> {
         length(&field("accel_m_s2"), found, 1, limits::MAX_TAP_SAMPLES)?;
         if found != samples {
             let rule = format!("{samples} as in trace 0");
-            return Err((field("accel_m_s2"), Problem::Length { found, rule }));
+            return Err(wrong_length(&field("accel_m_s2"), found, &rule));
         }
         for (sample, &accel) in trace.accel_m_s2.iter().enumerate() {
             let place = field(&format!("accel_m_s2[{sample}]"));
@@ -240,7 +245,7 @@ fn friction(stated: Friction) -> Result<Friction, Fault> {
     )?;
     for (index, anchor) in stated.anchors.iter().enumerate() {
         let field = |key: &str| format!("friction.anchors[{index}].{key}");
-        name(&field("name"), &anchor.name)?;
+        check_name(&field("name"), &anchor.name)?;
         in_range(&field("mu"), anchor.mu, (0.0, limits::MAX_MU))?;
         in_range(&field("weight"), anchor.weight, (0.0, 1.0))?;
     }
@@ -288,11 +293,12 @@ fn rate() -> (f32, f32) {
     limits::SAMPLE_RATE_HZ
 }
 
-fn name(field: &str, text: &str) -> Result<(), Fault> {
-    check_name(text).map_err(|_| {
-        let shown = text.chars().take(limits::MAX_NAME_BYTES).collect();
-        (field.into(), Problem::Name(shown))
-    })
+fn check_name(field: &str, text: &str) -> Result<(), Fault> {
+    if name::fits(text) {
+        return Ok(());
+    }
+    let shown: String = text.chars().take(limits::MAX_NAME_BYTES).collect();
+    Err(name::invalid(&shown).field(field))
 }
 
 /// A number within a range of the format; one that an asset would round to infinity is outside.
@@ -306,15 +312,20 @@ fn in_range(field: &str, value: f64, (low, high): (f32, f32)) -> Result<(), Faul
     } else {
         format!("from {low} to {high}")
     };
-    Err((field.into(), Problem::Value { value, rule }))
+    let what = format!("{value}, must be {rule}");
+    Err(Fault::new(what, "correct the value; its unit is in the key").field(field))
 }
 
 fn length(field: &str, found: usize, low: usize, high: usize) -> Result<(), Fault> {
     if (low..=high).contains(&found) {
         return Ok(());
     }
-    let rule = format!("{low} to {high}");
-    Err((field.into(), Problem::Length { found, rule }))
+    Err(wrong_length(field, found, &format!("{low} to {high}")))
+}
+
+fn wrong_length(field: &str, found: usize, rule: &str) -> Fault {
+    let what = format!("{found} entries, must be {rule}");
+    Fault::new(what, "give as many entries as that").field(field)
 }
 
 fn ascending(
@@ -324,7 +335,9 @@ fn ascending(
     let mut previous = f64::NEG_INFINITY;
     for (index, value) in values.enumerate() {
         if value <= previous {
-            return Err((field(index), Problem::Order { value, previous }));
+            let what = format!("{value} is not above {previous}, the one before it");
+            let fault = Fault::new(what, "sort the list; no two entries may be equal");
+            return Err(fault.field(field(index)));
         }
         previous = value;
     }

@@ -7,7 +7,7 @@ use crate::{
     pipeline::Request,
     sources::{SourceOutput, Tools, builtin},
 };
-use asperity_io::input::{InputProblem, Kind};
+use asperity_io::{diagnostic::Fault, input::Kind};
 use asperity_texture::model::{FrictionLaw, LawPoint, Numerator, TextureModel, defaults, mesh};
 use serde_json::{Value, json};
 
@@ -34,19 +34,15 @@ fn document() -> Value {
     serde_json::from_slice(&to_json(&builtin::texture())).unwrap()
 }
 
-fn from(document: &Value) -> Result<TextureModel, (String, ModelFileProblem)> {
+fn from(document: &Value) -> Result<TextureModel, Fault> {
     from_json(&serde_json::to_vec(document).unwrap())
 }
 
 /// A model is refused with this field and a text that names what is wrong.
 fn refused(document: &Value, field: &str, says: &str) {
-    let (found, problem) = from(document).unwrap_err();
-    assert_eq!(found, field, "{problem}");
-    let problem = problem.to_string();
-    assert!(
-        problem.contains(says),
-        "{field}: {says:?} not in {problem:?}"
-    );
+    let fault = from(document).unwrap_err();
+    assert_eq!(fault.field, field, "{fault}");
+    assert!(fault.what.contains(says), "{says:?} not in {fault}");
 }
 
 /// The built-in texture with friction that depends on speed.
@@ -192,8 +188,8 @@ fn other_files_and_versions_are_told_apart() {
     assert!(from_json(deep.as_bytes()).is_err());
     let mut trailing = to_json(&builtin::texture());
     trailing.extend(b"{}");
-    let (_, problem) = from_json(&trailing).unwrap_err();
-    assert!(problem.to_string().contains("trailing"), "{problem}");
+    let fault = from_json(&trailing).unwrap_err();
+    assert!(fault.what.contains("trailing"), "{fault}");
 }
 
 #[test]
@@ -377,8 +373,8 @@ fn values_lists_and_orders_are_checked() {
     let grid = cornerless["grid"].as_object_mut().unwrap();
     grid.remove("triangles").unwrap();
     grid["vertices"].as_array_mut().unwrap().truncate(18);
-    let (field, problem) = from(&cornerless).unwrap_err();
-    assert_eq!(field, "grid.vertices", "{problem}");
+    let fault = from(&cornerless).unwrap_err();
+    assert_eq!(fault.field, "grid.vertices", "{fault}");
 }
 
 #[test]
@@ -404,11 +400,8 @@ fn a_file_too_large_for_any_model_is_not_read_to_its_end() {
         .unwrap()
         .set_len(1 << 40)
         .unwrap();
-    let error = read(&file).unwrap_err();
-    assert!(matches!(
-        error.problem,
-        ModelFileProblem::Input(InputProblem::TooLarge { kind: Kind::Model })
-    ));
+    let fault = read(&file).unwrap_err();
+    assert!(fault.what.contains("the limit for a model"), "{fault}");
 }
 
 #[test]
@@ -416,8 +409,8 @@ fn a_byte_order_mark_is_no_fault_and_deep_nesting_is_one() {
     let marked = [b"\xef\xbb\xbf", &to_json(&builtin::texture())[..]].concat();
     assert_eq!(kept(from_json(&marked).unwrap()), kept(builtin::texture()));
     let deep = format!("{{\"format\": {}", "[".repeat(1_000_000));
-    let (_, problem) = from_json(deep.as_bytes()).unwrap_err();
-    assert!(problem.to_string().contains("recursion limit"), "{problem}");
+    let fault = from_json(deep.as_bytes()).unwrap_err();
+    assert!(fault.what.contains("recursion limit"), "{fault}");
 }
 
 /// Texts of the length that a file may have, and the notes on defaults, fit an asset.

@@ -4,7 +4,7 @@
 //! sum in the same order whatever the batch. So what is read together is to the bit what is read
 //! alone, and weights are expanded once for many prompts.
 
-use super::{PromptCompiler, PromptError, reading::Reading};
+use super::{PromptCompiler, PromptError, error::unread, reading::Reading};
 use crate::learned::{Decoded, Latent, Projected, text::Encoded};
 use std::{
     collections::{HashMap, HashSet},
@@ -79,7 +79,7 @@ impl PromptCompiler {
         }
         keep(&self.cache.readings, readings);
         let plain: Vec<&str> = texts.iter().map(String::as_str).collect();
-        let encoded = self.text.encode_all(&plain)?;
+        let encoded = self.text.encode_all(&plain).map_err(unread)?;
         let vectors: Vec<&[f32]> = encoded.iter().map(|e| e.vector.as_slice()).collect();
         let projected = self.model().project_all(&vectors)?;
         let latents: Vec<Latent> = projected.iter().map(|projected| projected.z).collect();

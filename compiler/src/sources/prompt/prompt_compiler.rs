@@ -3,6 +3,7 @@
 use super::{
     CompiledPrompt, Nearest, PromptError,
     encoding_cache::{EncodingCache, Read},
+    error::unread,
     named_things::Things,
     reading::{Reader, Reading, shown},
     understood::{Understood, check, understood},
@@ -10,7 +11,8 @@ use super::{
 use crate::{
     edit_memory::{History, Latents, Memory},
     learned::{
-        Certainty, Decoded, Latent, LearnedModel, ModelError, embedded,
+        Certainty, Decoded, Latent, LearnedModel, embedded,
+        files::wrong_width,
         friction::Neighbour,
         inference::Backend,
         text::{TextEncoder, WordStates, WordTable},
@@ -20,7 +22,7 @@ use crate::{
     sources::SourceOutput,
 };
 use asperity_formats::limits;
-use asperity_io::shown::shortened;
+use asperity_io::{diagnostic::Fault, shown::shortened};
 use asperity_texture::model::{
     Provenance, TextureModel,
     shift::{Scales, adjust},
@@ -49,8 +51,8 @@ impl PromptCompiler {
     /// A compiler of prompts, from a text encoder and a model trained with it.
     ///
     /// # Errors
-    /// [`ModelError::Width`] when they do not belong together.
-    pub fn new(text: Box<dyn TextEncoder>, model: LearnedModel) -> Result<Self, ModelError> {
+    /// [`Fault`] when they do not belong together.
+    pub fn new(text: Box<dyn TextEncoder>, model: LearnedModel) -> Result<Self, Fault> {
         let expected = model.description().text_encoder.width;
         if text.width() == expected {
             Ok(Self {
@@ -63,18 +65,15 @@ impl PromptCompiler {
                 together: false,
             })
         } else {
-            Err(ModelError::Width {
-                expected,
-                found: text.width(),
-            })
+            Err(wrong_width(expected, text.width()))
         }
     }
 
     /// The embedded model on a back end.
     ///
     /// # Errors
-    /// [`ModelError`] when the back end refuses a network.
-    pub fn embedded(backend: &Backend) -> Result<Self, ModelError> {
+    /// [`Fault`] when the back end refuses a network.
+    pub fn embedded(backend: &Backend) -> Result<Self, Fault> {
         let text = embedded::text_encoder(backend)?;
         let model = LearnedModel::load(embedded::model(), backend)?;
         Ok(Self {
@@ -152,13 +151,13 @@ impl PromptCompiler {
         if let Some(read) = self.cache.read(text) {
             return Ok(read);
         }
-        let encoded = self.text.encode(text)?;
+        let encoded = self.text.encode(text).map_err(unread)?;
         let projected = self.model.project(&encoded.vector)?;
         Ok(Arc::new((encoded, projected)))
     }
 
     /// The parameters that a latent decodes to.
-    pub(super) fn decoded(&self, z: &Latent) -> Result<Arc<Decoded>, ModelError> {
+    pub(super) fn decoded(&self, z: &Latent) -> Result<Arc<Decoded>, Fault> {
         match self.cache.decoded(z) {
             Some(decoded) => Ok(decoded),
             None => Ok(Arc::new(self.model.decode(z)?)),

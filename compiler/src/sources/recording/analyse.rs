@@ -1,9 +1,8 @@
 //! From a folder to what its sensors say of a surface.
 
-use super::error::RecordingFailure;
 use crate::pipeline::{Pass, Pipeline};
+use asperity_io::{diagnostic::Fault, shown::counted};
 use asperity_recording::{
-    RecordingError,
     check::{self, Checked},
     description::Quantity,
     friction::{self, Friction},
@@ -47,8 +46,8 @@ pub struct Analysis {
 /// Reads and checks a recording.
 ///
 /// # Errors
-/// [`RecordingError`] for files that cannot be read or aligned.
-pub fn check(folder: &Path) -> Result<(Recording, Checked, Timeline), RecordingError> {
+/// [`Fault`] for files that cannot be read or aligned.
+pub fn check(folder: &Path) -> Result<(Recording, Checked, Timeline), Fault> {
     let recording = reader::load(folder)?;
     let (checked, timeline) = check::check(&recording)?;
     Ok((recording, checked, timeline))
@@ -57,22 +56,22 @@ pub fn check(folder: &Path) -> Result<(Recording, Checked, Timeline), RecordingE
 /// Takes a recording through all steps, each a pass of `pipeline`. With `force`, faults do not stop it.
 ///
 /// # Errors
-/// [`RecordingFailure`] for a recording that cannot be read, is faulty, or too short.
-pub fn analyse(
-    folder: &Path,
-    force: bool,
-    pipeline: &mut Pipeline,
-) -> Result<Analysis, RecordingFailure> {
+/// [`Fault`] for a recording that cannot be read, is faulty, or too short.
+pub fn analyse(folder: &Path, force: bool, pipeline: &mut Pipeline) -> Result<Analysis, Fault> {
     let mut recording = pipeline.run(Pass::Read, || reader::load(folder))?;
     let (checked, mut timeline) = pipeline.run(Pass::Check, || check::check(&recording))?;
     let faults: Vec<_> = checked.stopping().collect();
     if let (Some(first), false) = (faults.first(), force) {
-        return Err(RecordingFailure::Faulty {
-            folder: folder.to_owned(),
-            count: faults.len(),
-            first: format!("{} {}: {}", first.file, first.channel, first.what),
-            remedy: first.remedy.clone(),
-        });
+        let count = counted(faults.len(), "fault", "faults");
+        let what = format!(
+            "{count}, the first: {} {}: {}",
+            first.file, first.channel, first.what
+        );
+        let remedy = format!(
+            "{}; `asperity record-check` lists every fault, and --force imports regardless",
+            first.remedy
+        );
+        return Err(Fault::new(what, remedy).at(folder));
     }
     let late_s = recording
         .channels
@@ -88,11 +87,14 @@ pub fn analyse(
         segments::segments(&timeline, &segments::vibration(&timeline))
     });
     let (least_s, least) = LEAST_STROKES;
-    let too_few = || RecordingFailure::TooFewStrokes {
-        folder: folder.to_owned(),
-        found_s: strokes.covered_s(),
-        segments: strokes.segments.len(),
-        least_s,
+    let too_few = || {
+        let what = format!(
+            "{:.1} s of usable strokes in {}; at least {least_s} s are needed",
+            strokes.covered_s(),
+            counted(strokes.segments.len(), "segment", "segments")
+        );
+        let remedy = "stroke for half a minute at many speeds and forces: a segment is 0.1 s or more of contact in which speed and force change by no more than a factor of four; docs/recording.md explains how to record";
+        Fault::new(what, remedy).at(folder)
     };
     if strokes.covered_s() < least_s || strokes.segments.len() < least {
         return Err(too_few());

@@ -1,10 +1,11 @@
 //! Completion of the unrecorded parts, from the latent of the recorded ones.
 
 use crate::learned::{
-    LearnedModel, ModelError, Present,
+    LearnedModel, Present,
     complete::{ar_channels, taps_of_grid},
     friction,
 };
+use asperity_io::diagnostic::Fault;
 use asperity_texture::model::{Gains, ModelGrid, TapBank};
 use serde::Serialize;
 
@@ -38,12 +39,8 @@ pub struct Completed {
 /// Encodes a grid and decodes what goes with it.
 ///
 /// # Errors
-/// [`ModelError`] when a network fails.
-pub fn complete(
-    model: &LearnedModel,
-    grid: &ModelGrid,
-    gains: &Gains,
-) -> Result<Completed, ModelError> {
+/// [`Fault`] when a network fails.
+pub fn complete(model: &LearnedModel, grid: &ModelGrid, gains: &Gains) -> Result<Completed, Fault> {
     let description = model.description();
     let z = model.encode(Present::Ar(&ar_channels(&description.grid, grid)))?;
     let neighbours = friction::neighbours(&z, &description.anchors, description.friction);

@@ -8,7 +8,6 @@
 
 mod analyse;
 mod complete;
-mod error;
 mod report;
 mod sheet;
 mod source;
@@ -16,7 +15,6 @@ mod texture;
 
 pub use analyse::{Analysis, analyse, check};
 pub use complete::{Completed, Nearest, complete};
-pub use error::RecordingFailure;
 pub use sheet::{HEIGHT_PX, WIDTH_PX};
 pub use source::{KIND, Recorded, RecordingFolder};
 pub use texture::{Parts, texture};

@@ -10,7 +10,7 @@
 //! let performance = perform(&asset, &stroke, None, 1)?;
 //! let (_, vibration_m_s2) = &performance.strokes[0];
 //! assert!(vibration_m_s2.iter().any(|a| a.abs() > 0.0) && performance.taps.is_empty());
-//! # Ok::<(), asperity::views::listen::ListenError>(())
+//! # Ok::<(), asperity_io::diagnostic::Fault>(())
 //! ```
 
 mod hand;
@@ -18,12 +18,11 @@ mod hand;
 use super::offline_config;
 use crate::emit::raise::raise;
 use asperity_formats::Asset;
-use asperity_io::diagnostic::Diagnostic;
-use asperity_runtime::{ConfigError, HostTexture, LoadError, Renderer};
+use asperity_io::diagnostic::Fault;
+use asperity_runtime::{HostTexture, Renderer};
 use asperity_texture::signal::resample::resample;
 use hand::Hand;
 use std::io::Cursor;
-use thiserror::Error;
 
 /// Rate of the sound, Hz.
 pub const SOUND_HZ: u32 = 44_100;
@@ -125,49 +124,20 @@ pub struct Part {
     pub gain_per_m_s2: f64,
 }
 
-/// Why a texture cannot be heard.
-#[derive(Debug, Error)]
-pub enum ListenError {
-    /// The rate is no servo rate.
-    #[error("{texture}: the servo rate is not supported: {cause}")]
-    Config {
-        /// Name of the texture.
-        texture: String,
-        /// Why.
-        cause: ConfigError,
-    },
-    /// The texture does not fit the runtime's slot, or its rate not the loop's.
-    #[error("{texture}: {cause}")]
-    Load {
-        /// Name of the texture.
-        texture: String,
-        /// Why.
-        cause: LoadError,
-    },
-    /// Nothing to hear was asked for.
-    #[error("{texture}: the texture has no taps")]
-    NoTaps {
-        /// Name of the texture.
-        texture: String,
-    },
-    /// The encoder failed.
-    #[error("the sound cannot be encoded: {0}")]
-    Wav(#[from] hound::Error),
+/// Refuses taps alone of a texture that has none; `verb` says what is done with strokes.
+pub(crate) fn check_taps(asset: &Asset<'_>, session: &Gesture, verb: &str) -> Result<(), Fault> {
+    if !session.strokes.is_empty() || !tap_speeds(asset).is_empty() {
+        return Ok(());
+    }
+    let what = format!("{}: the texture has no taps", asset.name());
+    let remedy = format!("{verb} strokes: leave out --taps");
+    Err(Fault::new(what, remedy).usage())
 }
 
-impl Diagnostic for ListenError {
-    fn remedy(&self) -> String {
-        match self {
-            Self::Config { .. } => "give --rate a servo rate, e.g. 1000".into(),
-            Self::Load { .. } => "give --rate 1 to 20 times the texture's own rate".into(),
-            Self::NoTaps { .. } => "listen to strokes: leave out --taps".into(),
-            Self::Wav(_) => "free memory and try again".into(),
-        }
-    }
-
-    fn is_usage(&self) -> bool {
-        matches!(self, Self::Config { .. } | Self::NoTaps { .. })
-    }
+/// Returns the fault of a sound that the encoder does not take.
+pub(crate) fn not_encoded(error: hound::Error) -> Fault {
+    let what = format!("the sound cannot be encoded: {error}");
+    Fault::new(what, "free memory and try again")
 }
 
 /// The accelerations of a session, part by part, before device gain.
@@ -187,30 +157,27 @@ pub struct Performance {
 /// rate. The same asset, session and seed give the same numbers.
 ///
 /// # Errors
-/// [`ListenError`].
+/// [`Fault`] for a rate that does not suit, and for taps alone where there are none.
 pub fn perform(
     asset: &Asset<'_>,
     session: &Gesture,
     rate_hz: Option<f32>,
     seed: u64,
-) -> Result<Performance, ListenError> {
-    let texture = || asset.name().to_owned();
+) -> Result<Performance, Fault> {
+    check_taps(asset, session, "listen to")?;
+    let name = asset.name();
     let speeds = tap_speeds(asset);
-    if session.strokes.is_empty() && speeds.is_empty() {
-        return Err(ListenError::NoTaps { texture: texture() });
-    }
     let rate_hz = rate_hz.unwrap_or(asset.grid().sample_rate_hz());
     let config = offline_config(rate_hz);
-    let renderer = Renderer::new(&config).map_err(|cause| ListenError::Config {
-        texture: texture(),
-        cause,
+    let renderer = Renderer::new(&config).map_err(|cause| {
+        let what = format!("{name}: the servo rate is not supported: {cause}");
+        Fault::new(what, "give --rate a servo rate, e.g. 1000").usage()
     })?;
     let mut slot = Box::new(HostTexture::new());
-    slot.load(asset, rate_hz)
-        .map_err(|cause| ListenError::Load {
-            texture: texture(),
-            cause,
-        })?;
+    slot.load(asset, rate_hz).map_err(|cause| {
+        let remedy = "give --rate 1 to 20 times the texture's own rate";
+        Fault::new(format!("{name}: {cause}"), remedy)
+    })?;
     let hand = Hand {
         renderer: &renderer,
         texture: &slot,
@@ -256,13 +223,13 @@ pub fn perform(
 /// same bytes.
 ///
 /// # Errors
-/// [`ListenError`].
+/// As [`perform`].
 pub fn listen(
     asset: &Asset<'_>,
     session: &Gesture,
     rate_hz: Option<f32>,
     seed: u64,
-) -> Result<Heard, ListenError> {
+) -> Result<Heard, Fault> {
     let performed = perform(asset, session, rate_hz, seed)?;
     let rate_hz = performed.rate_hz;
     let pause = vec![0.0; (PAUSE_S * rate_hz).round() as usize];
@@ -289,7 +256,7 @@ pub fn listen(
     let samples = levelled(&[(&scraping, &strokes), (&tapping, &taps)]);
     Ok(Heard {
         seconds: samples.len() as f64 / f64::from(SOUND_HZ),
-        wav: wav(&samples)?,
+        wav: wav(&samples).map_err(not_encoded)?,
         strokes,
         taps,
         warnings,

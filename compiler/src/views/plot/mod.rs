@@ -13,5 +13,5 @@ mod of_asset;
 mod roots;
 mod sheet;
 
-pub use of_asset::{DrawError, of_asset};
+pub use of_asset::of_asset;
 pub use sheet::{AssetBytes, HEIGHT_PX, WIDTH_PX, sheet, sheet_with_picture};

@@ -3,26 +3,13 @@
 use super::{AssetBytes, sheet_with_picture};
 use crate::{emit::raise::raise, views::preview};
 use asperity_formats::Asset;
-use asperity_io::diagnostic::Diagnostic;
-use asperity_plot::PlotError;
-use thiserror::Error;
-
-/// The sheet could not be drawn.
-#[derive(Debug, Error)]
-#[error("the sheet cannot be drawn: {0}")]
-pub struct DrawError(#[from] PlotError);
-
-impl Diagnostic for DrawError {
-    fn remedy(&self) -> String {
-        "free memory and try again".into()
-    }
-}
+use asperity_io::diagnostic::Fault;
 
 /// The sheet of an asset as PNG.
 ///
 /// # Errors
 /// As [`sheet`](super::sheet).
-pub fn of_asset(asset: &Asset<'_>) -> Result<Vec<u8>, DrawError> {
+pub fn of_asset(asset: &Asset<'_>) -> Result<Vec<u8>, Fault> {
     let sizes = AssetBytes {
         haptic: asset.haptic_len(),
         total: asset.total_len(),
@@ -31,9 +18,8 @@ pub fn of_asset(asset: &Asset<'_>) -> Result<Vec<u8>, DrawError> {
     let picture = asset
         .preview_png()
         .and_then(|png| preview::stored(png).ok());
-    Ok(sheet_with_picture(
-        &raise(asset),
-        Some(sizes),
-        picture.as_ref(),
-    )?)
+    sheet_with_picture(&raise(asset), Some(sizes), picture.as_ref()).map_err(|error| {
+        let what = format!("the sheet cannot be drawn: {error}");
+        Fault::new(what, "free memory and try again")
+    })
 }

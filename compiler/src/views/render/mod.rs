@@ -25,17 +25,19 @@ pub use error::RenderError;
 
 use super::offline_config;
 use asperity_formats::{Asset, Library};
+use asperity_io::diagnostic::Fault;
 use asperity_runtime::{
     Flags, HostScene, HostTexture, Output, Renderer, Sample, SceneError, SceneState, State,
 };
+use error::{no_scene, not_loaded, unsupported};
 use std::{
     io::{Read, Write},
     path::Path,
 };
-use trajectory::Rows;
+use trajectory::{Rows, no_table};
 
 /// Most textures of a scene that is rendered, each of which takes a slot; `asperity build` packs 64 at most.
-pub const MAX_SCENE_TEXTURES: usize = 1024;
+const MAX_SCENE_TEXTURES: usize = 1024;
 
 /// Statistics of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,17 +72,10 @@ pub fn render(
 ) -> Result<RenderReport, RenderError> {
     let rate_hz = rate_hz.unwrap_or(asset.grid().sample_rate_hz());
     let config = offline_config(rate_hz);
-    let texture = || asset.name().to_owned();
-    let renderer = Renderer::new(&config).map_err(|cause| RenderError::Config {
-        texture: texture(),
-        cause,
-    })?;
+    let renderer = Renderer::new(&config).map_err(|cause| unsupported(asset.name(), cause))?;
     let mut slot = Box::new(HostTexture::new());
     slot.load(asset, rate_hz)
-        .map_err(|cause| RenderError::Load {
-            texture: texture(),
-            cause,
-        })?;
+        .map_err(|cause| not_loaded(asset.name(), cause))?;
     let mut state = State::new(seed);
     let rows = Rows::new(file, input, rate_hz)?;
     writeln!(output, "{}", OUTPUT_COLUMNS.join(",")).map_err(RenderError::Write)?;
@@ -93,7 +88,7 @@ pub fn render(
 /// is given; a row says at its end, under [`SURFACE_COLUMN`], which one is touched.
 ///
 /// # Errors
-/// As [`render`], and [`RenderError::Scene`].
+/// As [`render`], and for a scene that the runtime does not load.
 pub fn render_scene(
     library: &Library<'_>,
     rate_hz: Option<f32>,
@@ -103,20 +98,15 @@ pub fn render_scene(
     seed: u64,
 ) -> Result<RenderReport, RenderError> {
     let textures = library.index().len();
-    if textures > MAX_SCENE_TEXTURES {
-        return Err(RenderError::Textures { found: textures });
-    }
+    check_textures(textures)?;
     let first = library.asset(0).map_err(|cause| {
         let (index, cause) = (0, cause.into());
-        RenderError::Scene(SceneError::Texture { index, cause })
+        no_scene(SceneError::Texture { index, cause })
     })?;
     let config = offline_config(rate_hz.unwrap_or(first.grid().sample_rate_hz()));
-    let renderer = Renderer::new(&config).map_err(|cause| RenderError::Config {
-        texture: first.name().to_owned(),
-        cause,
-    })?;
+    let renderer = Renderer::new(&config).map_err(|cause| unsupported(first.name(), cause))?;
     let mut slots = vec![HostTexture::new(); textures];
-    let scene = HostScene::load(library, &config, &mut slots).map_err(RenderError::Scene)?;
+    let scene = HostScene::load(library, &config, &mut slots).map_err(no_scene)?;
     let mut state = SceneState::new(seed);
     let rows = Rows::new(file, input, config.servo_rate_hz)?;
     writeln!(output, "{},{SURFACE_COLUMN}", OUTPUT_COLUMNS.join(","))
@@ -126,6 +116,19 @@ pub fn render_scene(
         let touched = state.touched().map(|index| index.to_string());
         (felt, format!(",{}", touched.unwrap_or_default()))
     })
+}
+
+/// Refuses a scene with more textures than are rendered at once.
+///
+/// # Errors
+/// [`Fault`] with the number of them.
+pub fn check_textures(found: usize) -> Result<(), Fault> {
+    if found <= MAX_SCENE_TEXTURES {
+        return Ok(());
+    }
+    let what = format!("the scene has {found} textures, {MAX_SCENE_TEXTURES} are rendered at most");
+    let remedy = "build the scene again with `asperity build`, which packs only textures in use";
+    Err(Fault::new(what, remedy))
 }
 
 /// Every row through `tick`, which may add columns.
@@ -168,9 +171,7 @@ fn run<R: Read>(
     }
     output.flush().map_err(RenderError::Write)?;
     if report.ticks == 0 {
-        return Err(RenderError::Empty {
-            file: rows.file.to_owned(),
-        });
+        return Err(no_table(rows.file, "the trajectory has no rows").into());
     }
     Ok(report)
 }
@@ -254,7 +255,10 @@ mod tests {
         let (report, _) = run_at(Some(5000.0), &text, 1).unwrap();
         assert_eq!(report.ticks, 500);
         let refused = run_at(Some(1000.0), &text, 1).unwrap_err();
-        assert!(matches!(refused, RenderError::Rate { .. }), "{refused}");
+        assert!(
+            refused.to_string().contains("at 1000 Hz row 1 must be"),
+            "{refused}"
+        );
         let refused = run_at(Some(1500.0), &text, 1).unwrap_err();
         assert!(refused.to_string().contains("a whole number"), "{refused}");
         assert!(
@@ -322,10 +326,8 @@ mod tests {
         let file = Path::new("in.csv");
         let input = stroke(5);
         let error = render_scene(&library, None, file, input.as_bytes(), io::sink(), 0);
-        assert!(
-            matches!(error, Err(RenderError::Textures { found: 1025 })),
-            "{error:?}"
-        );
+        let error = error.unwrap_err().to_string();
+        assert!(error.contains("has 1025 textures"), "{error}");
     }
 
     #[test]

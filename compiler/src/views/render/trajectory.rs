@@ -1,8 +1,9 @@
 //! The table of a trajectory: columns, numbers and times, checked row by row.
 
-use super::{columns::INPUT_COLUMNS, error::RenderError};
+use super::columns::INPUT_COLUMNS;
 use asperity_io::{
-    input::{InputError, InputProblem, Kind},
+    diagnostic::Fault,
+    input::{InputProblem, Kind},
     table::{Table, TableError, TableProblem, number},
 };
 use std::{
@@ -32,7 +33,7 @@ pub(super) struct Rows<'a, R> {
 
 impl<'a, R: Read> Rows<'a, R> {
     /// Reads the header.
-    pub(super) fn new(file: &'a Path, input: R, rate_hz: f32) -> Result<Self, RenderError> {
+    pub(super) fn new(file: &'a Path, input: R, rate_hz: f32) -> Result<Self, Fault> {
         let left = Kind::Trajectory.max_bytes();
         let table = Table::open(Bounded { input, left }, &|_| false);
         let table = table.map_err(|error| fault(file, error))?;
@@ -41,21 +42,17 @@ impl<'a, R: Read> Rows<'a, R> {
         for (place, column) in columns.iter_mut().zip(INPUT_COLUMNS) {
             let names = table.layout().columns.iter().enumerate();
             let mut found = names.filter(|(_, name)| *name == column);
-            *place = found
-                .next()
-                .ok_or_else(|| RenderError::MissingColumn {
-                    file: file.to_owned(),
-                    line,
-                    column,
-                })?
-                .0;
-            if found.next().is_some() {
-                return Err(RenderError::RepeatedColumn {
-                    file: file.to_owned(),
-                    line,
-                    column,
-                });
-            }
+            let fault = match (found.next(), found.next()) {
+                (Some((index, _)), None) => {
+                    *place = index;
+                    continue;
+                }
+                (None, _) => "is missing",
+                (Some(_), Some(_)) => "appears twice",
+            };
+            let remedy = format!("start the file with the header {}", INPUT_COLUMNS.join(","));
+            let fault = Fault::new(format!("column {column} {fault}"), remedy);
+            return Err(fault.at(file).line(line));
         }
         Ok(Self {
             file,
@@ -68,7 +65,7 @@ impl<'a, R: Read> Rows<'a, R> {
     }
 
     /// The next row, if there is one.
-    pub(super) fn next(&mut self) -> Result<Option<Row>, RenderError> {
+    pub(super) fn next(&mut self) -> Result<Option<Row>, Fault> {
         let decimal_comma = self.table.layout().decimal_comma;
         let next = self.table.next_row();
         let Some(row) = next.map_err(|error| fault(self.file, error))? else {
@@ -87,11 +84,12 @@ impl<'a, R: Read> Rows<'a, R> {
             let text = row.text(self.columns[k]);
             *value = number(&text, decimal_comma)
                 .filter(|value| value.is_finite())
-                .ok_or_else(|| RenderError::NotANumber {
-                    file: self.file.to_owned(),
-                    line,
-                    column: INPUT_COLUMNS[k],
-                    value: text.chars().take(40).collect(),
+                .ok_or_else(|| {
+                    let (column, value) = (INPUT_COLUMNS[k], text.chars().take(40));
+                    let value: String = value.collect();
+                    let what = format!("{column} = {value:?} is not a finite number");
+                    let fault = Fault::new(what, "write a number, such as 12.5");
+                    fault.at(self.file).line(line)
                 })?;
         }
         let [t_s, x, y, z] = values;
@@ -101,14 +99,16 @@ impl<'a, R: Read> Rows<'a, R> {
         let due = self.first_t_s + self.row as f64 / f64::from(self.rate_hz);
         let slack = TIME_TOLERANCE / f64::from(self.rate_hz) + 1e-12 * due.abs();
         if (t_s - due).abs() > slack {
-            return Err(RenderError::Rate {
-                file: self.file.to_owned(),
-                line,
-                row: self.row,
-                found: t_s,
-                due,
-                rate_hz: self.rate_hz,
-            });
+            let rate_hz = self.rate_hz;
+            let what = format!(
+                "t_s = {t_s} s, but at {rate_hz} Hz row {} must be at {due} s",
+                self.row
+            );
+            let remedy = format!(
+                "resample the trajectory to {rate_hz} Hz, so that t_s increases by {} s per row",
+                1.0 / rate_hz
+            );
+            return Err(Fault::new(what, remedy).at(self.file).line(line));
         }
         self.row += 1;
         Ok(Some(Row {
@@ -136,13 +136,16 @@ impl<R: Read> Read for Bounded<R> {
     }
 }
 
-fn fault(file: &Path, error: TableError) -> RenderError {
-    let file = file.to_owned();
+fn fault(file: &Path, error: TableError) -> Fault {
     match error.problem {
-        TableProblem::Unreadable(cause) => {
-            let problem = cause.into();
-            RenderError::Input(InputError { file, problem })
-        }
-        _ => RenderError::Table { file, error },
+        TableProblem::Unreadable(cause) => Fault::from(InputProblem::from(cause)).at(file),
+        _ => no_table(file, &error.to_string()),
     }
+}
+
+/// Returns the fault of a file that is no table, or an empty or a damaged one.
+pub(super) fn no_table(file: &Path, what: &str) -> Fault {
+    let header = INPUT_COLUMNS.join(",");
+    let remedy = format!("give UTF-8 text with the header {header} and one row per tick");
+    Fault::new(what, remedy).at(file)
 }

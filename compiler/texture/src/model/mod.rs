@@ -9,7 +9,7 @@
 //! this order, encodes the parts, and parses the bytes again. `verify` then renders these bytes with the runtime. The
 //! error follows each rule: `Mesh`, `TooMany`, `Frequency` and `Gap` are variants of `LowerError`, `Count` one of
 //! [`EncodeError`], and a dotted name is the field of a [`FormatError::Invalid`] in [`EncodeError::Rejected`]. A model
-//! file obeys the same rules, and stricter ones where noted (`ModelFileProblem`, with the path of the field). NaN and
+//! file obeys the same rules, and stricter ones where noted (a `Fault` with the path of the field). NaN and
 //! infinities lie outside every range. Numbers round to f32 unless noted. [`limits`] has the constants.
 //!
 //! **Grid** ([`ModelGrid`])

@@ -1,7 +1,6 @@
 //! Errors of the bench.
 
-use asperity::{learned::ModelError, sources::recording::RecordingFailure};
-use asperity_io::diagnostic::Diagnostic;
+use asperity_io::diagnostic::{Diagnostic, Fault};
 use thiserror::Error;
 
 /// A bench that could not run.
@@ -19,12 +18,9 @@ pub enum ImportAccuracyError {
     /// A file of the recording.
     #[error("the recording cannot be written ({0})")]
     Write(#[from] std::io::Error),
-    /// The learned model, which textures are taken from.
+    /// The import, or the learned model, which textures are taken from.
     #[error(transparent)]
-    Model(#[from] ModelError),
-    /// The import.
-    #[error(transparent)]
-    Import(#[from] RecordingFailure),
+    Import(#[from] Fault),
 }
 
 impl Diagnostic for ImportAccuracyError {
@@ -32,7 +28,6 @@ impl Diagnostic for ImportAccuracyError {
         match self {
             Self::Texture { .. } => "give another texture".into(),
             Self::Write(_) => "free space in the folder for temporary files".into(),
-            Self::Model(error) => error.remedy(),
             Self::Import(error) => error.remedy(),
         }
     }

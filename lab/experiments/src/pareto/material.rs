@@ -7,19 +7,20 @@ use asperity::{
         VertexKind, Wall, defaults, triangulate,
     },
     signal::level::nyquist_rms,
-    sources::hatt::{self, HattError},
+    sources::hatt,
 };
 use asperity_corpus::{
     CorpusError, Material, SAMPLE_RATE_HZ, TAP_RATE_HZ, UnifiedGrid,
     reference::{self, ReferenceOptions},
 };
+use asperity_io::diagnostic::Fault;
 use std::path::Path;
 
 /// Every material of a folder of HaTT files, in order of file name.
 ///
 /// # Errors
-/// [`HattError`] of the first file that is refused.
-pub fn hatt(folder: &Path) -> Result<Vec<TextureModel>, HattError> {
+/// [`Fault`] of the first file that is refused.
+pub fn hatt(folder: &Path) -> Result<Vec<TextureModel>, Fault> {
     hatt::files(folder)?
         .iter()
         .map(|file| {

@@ -8,7 +8,7 @@ use asperity_plot::PlotError;
 pub enum StabilityError {
     /// A HaTT folder was refused.
     #[error(transparent)]
-    Hatt(#[from] asperity::sources::hatt::HattError),
+    Hatt(#[from] asperity_io::diagnostic::Fault),
     /// A HaTT material could not be imported.
     #[error("{0}")]
     Import(asperity::driver::Failure),

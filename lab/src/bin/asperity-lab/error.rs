@@ -1,32 +1,18 @@
 //! Failures that belong to no library.
 
-use asperity_io::diagnostic::{Diagnostic, Failures, one};
+use asperity_io::diagnostic::{Failures, Fault, one};
 
-/// An error whose text and remedy are known where it occurs.
-#[derive(Debug, thiserror::Error)]
-#[error("{what}")]
-pub(crate) struct Plain {
-    what: String,
-    remedy: String,
-    is_usage: bool,
-}
+/// Failures whose text and remedy are known where they occur.
+pub(crate) struct Plain;
 
 impl Plain {
-    pub(crate) fn failure(what: impl std::fmt::Display, remedy: impl Into<String>) -> Failures {
-        one(Self {
-            what: what.to_string(),
-            remedy: remedy.into(),
-            is_usage: false,
-        })
+    pub(crate) fn failure(what: impl std::fmt::Display, remedy: impl Into<Box<str>>) -> Failures {
+        one(Fault::new(what, remedy))
     }
 
     /// The command was called wrongly.
-    pub(crate) fn usage(what: impl std::fmt::Display, remedy: impl Into<String>) -> Failures {
-        one(Self {
-            what: what.to_string(),
-            remedy: remedy.into(),
-            is_usage: true,
-        })
+    pub(crate) fn usage(what: impl std::fmt::Display, remedy: impl Into<Box<str>>) -> Failures {
+        one(Fault::new(what, remedy).usage())
     }
 }
 
@@ -38,15 +24,5 @@ pub(crate) fn all(done: impl IntoIterator<Item = Result<(), Failures>>) -> Resul
         Ok(())
     } else {
         Err(failures)
-    }
-}
-
-impl Diagnostic for Plain {
-    fn remedy(&self) -> String {
-        self.remedy.clone()
-    }
-
-    fn is_usage(&self) -> bool {
-        self.is_usage
     }
 }

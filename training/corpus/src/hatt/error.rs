@@ -1,8 +1,7 @@
 //! Why a folder of HaTT models cannot be used as a corpus.
 
 use crate::{BINS, SAMPLE_RATE_HZ};
-use asperity::sources::hatt::{HattError, Problem};
-use asperity_io::diagnostic::Diagnostic;
+use asperity_io::diagnostic::{Diagnostic, Fault};
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -15,7 +14,7 @@ const SHOWN: usize = 10;
 pub enum HattCorpusError {
     /// The folder or a file of it was refused.
     #[error(transparent)]
-    Source(#[from] HattError),
+    Source(#[from] Fault),
     /// Materials without captions of ours.
     #[error("no captions for {}", listed(unknown))]
     NoCaptions {
@@ -69,10 +68,7 @@ fn listed(unknown: &[(PathBuf, String)]) -> String {
 impl Diagnostic for HattCorpusError {
     fn remedy(&self) -> String {
         match self {
-            Self::Source(error) => match error.problem {
-                Problem::SameMaterial { .. } => "keep one of the two files".into(),
-                _ => error.remedy(),
-            },
+            Self::Source(error) => error.remedy(),
             Self::NoCaptions { .. } => {
                 "take the file out, or add captions to training/corpora/hatt/captions.toml".into()
             }

@@ -6,7 +6,8 @@ use super::{
     interpolation::OwnGrid,
 };
 use crate::SAMPLE_RATE_HZ;
-use asperity::sources::hatt::{self, HattError, Problem};
+use asperity::sources::hatt;
+use asperity_io::diagnostic::Fault;
 use rayon::prelude::*;
 use std::{
     collections::HashMap,
@@ -32,11 +33,9 @@ pub(super) fn read(folder: &Path) -> Result<Vec<Source>, HattCorpusError> {
     let mut first_with: HashMap<&str, &Path> = HashMap::new();
     for source in &sources {
         if let Some(other) = first_with.insert(&source.name, &source.file) {
-            let problem = Problem::SameMaterial {
-                name: source.name.clone(),
-                other: other.display().to_string(),
-            };
-            return Err(fail(&source.file, problem).into());
+            let what = format!("material {:?} is also in {}", source.name, other.display());
+            let fault = Fault::new(what, "keep one of the two files");
+            return Err(fault.at(&source.file).into());
         }
     }
     Ok(sources)
@@ -90,12 +89,4 @@ fn read_file(file: &Path) -> Result<Source, HattCorpusError> {
         mu: material.mu,
         own,
     })
-}
-
-fn fail(file: &Path, problem: Problem) -> HattError {
-    HattError {
-        file: file.to_owned(),
-        line: None,
-        problem,
-    }
 }

@@ -1,9 +1,11 @@
 //! Why a model cannot be evaluated.
 
 use crate::{config::ConfigError, error::FitError};
-use asperity::learned::ModelError;
 use asperity_corpus::CorpusError;
-use asperity_io::{diagnostic::Diagnostic, output::OutputError};
+use asperity_io::{
+    diagnostic::{Diagnostic, Fault},
+    output::OutputError,
+};
 use asperity_plot::PlotError;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -14,7 +16,7 @@ use thiserror::Error;
 pub enum EvaluateError {
     /// The model folder is none.
     #[error(transparent)]
-    Model(#[from] ModelError),
+    Model(#[from] Fault),
     /// The corpus cannot be loaded.
     #[error(transparent)]
     Corpus(#[from] CorpusError),

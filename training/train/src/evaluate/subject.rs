@@ -7,12 +7,13 @@ use super::{
 use crate::{attributes::Layout, trained::Seen};
 use asperity::{
     learned::{
-        Decoded, Files, Latent, LearnedModel, ModelError, Present, Projected,
-        description::ModelDescription, friction, inference::Backend, texture,
+        Decoded, Files, Latent, LearnedModel, Present, Projected, description::ModelDescription,
+        friction, inference::Backend, texture,
     },
     model::{Provenance, attributes, shift},
 };
 use asperity_corpus::{BINS, CHANNELS, Instance, ORDER, TAP_SAMPLES, TAPS};
+use asperity_io::diagnostic::Fault;
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -84,7 +85,7 @@ impl Subject {
     /// Where text vectors land.
     pub(super) fn project(&self, vectors: &[Vec<f32>]) -> Result<Vec<Projected>, EvaluateError> {
         let projected = vectors.par_iter().map(|v| self.model.project(v));
-        Ok(projected.collect::<Result<_, ModelError>>()?)
+        Ok(projected.collect::<Result<_, Fault>>()?)
     }
 
     /// Posterior means of instances.
@@ -102,7 +103,7 @@ impl Subject {
                 Seen::Taps => Present::Taps(taps),
             })
         });
-        Ok(means.collect::<Result<_, ModelError>>()?)
+        Ok(means.collect::<Result<_, Fault>>()?)
     }
 
     /// Decodes latents, with the friction of their neighbours.
@@ -115,7 +116,7 @@ impl Subject {
                 signature,
             })
         });
-        Ok(textures.collect::<Result<_, ModelError>>()?)
+        Ok(textures.collect::<Result<_, Fault>>()?)
     }
 
     /// Attributes of the textures of texts: what the latents decode to, moved to what the words ask
@@ -139,7 +140,7 @@ impl Subject {
                 mu: attributes.mu,
             })
         });
-        Ok(felt.collect::<Result<_, ModelError>>()?)
+        Ok(felt.collect::<Result<_, Fault>>()?)
     }
 
     /// μ from the neighbours of a latent.

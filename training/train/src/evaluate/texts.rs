@@ -75,9 +75,9 @@ impl<'a> Texts<'a> {
 }
 
 fn encode(encoder: &dyn TextEncoder, text: &str) -> Result<Vec<f32>, EvaluateError> {
-    let encoded = encoder.encode(text).map_err(|source| FitError::Caption {
+    let encoded = encoder.encode(text).map_err(|fault| FitError::Caption {
         caption: text.to_owned(),
-        source,
+        source: fault.into(),
     })?;
     Ok(encoded.vector)
 }

@@ -5,41 +5,23 @@ use crate::{
     commands::{inference, timings},
 };
 use asperity::{
-    library::{
-        Build, BuildFile, Cache, Lock, Manifest, Pinned, Request, Setup, manifest::ManifestError,
-    },
+    library::{Build, BuildFile, Cache, Lock, Manifest, Pinned, Request, Setup},
     pipeline::{Clock, Pass, Pipeline},
     sources::Registry,
 };
 use asperity_console::Console;
 use asperity_io::{
     clock::now,
-    diagnostic::{Diagnostic, Failures, one},
+    diagnostic::{Diagnostic, Failures, Fault, one},
     input::Reach,
     output::{OutputId, Outputs, display, is_standard_output},
     shown::counted,
 };
 use serde_json::json;
 use std::{io::BufWriter, path::Path};
-use thiserror::Error;
 
 /// Warnings that are printed one by one.
 const WARNINGS: usize = 20;
-
-/// Why the options do not go together.
-#[derive(Debug, Error)]
-#[error("{0} applies only to scenes, but the manifest has no [[surface]]")]
-struct ForScenes(&'static str);
-
-impl Diagnostic for ForScenes {
-    fn remedy(&self) -> String {
-        "leave it out, or add a [[surface]] for every texture".into()
-    }
-
-    fn is_usage(&self) -> bool {
-        true
-    }
-}
 
 pub(crate) fn run(args: &Arguments, build: BuildFile, console: Console) -> Result<(), Failures> {
     for (given, option) in [
@@ -47,7 +29,10 @@ pub(crate) fn run(args: &Arguments, build: BuildFile, console: Console) -> Resul
         (args.budget_bytes.is_some(), "--budget-bytes"),
     ] {
         if given {
-            return Err(one(ForScenes(option)));
+            let what =
+                format!("{option} applies only to scenes, but the manifest has no [[surface]]");
+            let remedy = "leave it out, or add a [[surface]] for every texture";
+            return Err(one(Fault::new(what, remedy).usage()));
         }
     }
     let BuildFile { text, reach, .. } = build;
@@ -188,7 +173,7 @@ impl Pins {
     }
 }
 
-fn boxed(errors: Vec<ManifestError>) -> Failures {
+fn boxed(errors: Vec<Fault>) -> Failures {
     let boxed = errors
         .into_iter()
         .map(|error| Box::new(error) as Box<dyn Diagnostic>);

@@ -1,17 +1,14 @@
 //! `asperity diff`.
 
 use crate::cli::Diff;
-use asperity::{
-    library::{Change, LoadedLibrary, diff},
-    sources::latents::EditError,
-};
+use asperity::library::{Change, LoadedLibrary, diff};
 use asperity_console::Console;
 use asperity_io::diagnostic::{Failures, one};
 
 pub(crate) fn run(args: &Diff, console: Console) -> Result<(), Failures> {
     let old = LoadedLibrary::open(&args.old).map_err(one)?;
     let new = LoadedLibrary::open(&args.new).map_err(one)?;
-    let difference = diff(&old, &new).map_err(|error| one(EditError::from(error)))?;
+    let difference = diff(&old, &new).map_err(one)?;
     let printed = if args.json {
         // Plain structures of numbers and strings always serialise.
         console.json(&serde_json::to_value(&difference).unwrap_or_default())

@@ -1,7 +1,7 @@
 //! `asperity extract`.
 
 use crate::{cli::Extract, commands::input::Chosen};
-use asperity::{emit::sections::renamed, sources::latents::EditError};
+use asperity::emit::{lower::LowerError, sections::renamed};
 use asperity_console::Console;
 use asperity_io::{
     diagnostic::{Failures, one},
@@ -22,7 +22,7 @@ pub(crate) fn run(args: &Extract, console: Console) -> Result<(), Failures> {
     let extracted = if name == asset.name() {
         chosen.bytes.clone()
     } else {
-        renamed(&chosen.bytes, name).map_err(|e| one(EditError::from(e)))?
+        renamed(&chosen.bytes, name).map_err(|e| one(LowerError::from(e)))?
     };
     outputs.fill(output, &extracted).map_err(one)?;
     outputs.commit().map_err(one)?;

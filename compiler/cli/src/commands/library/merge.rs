@@ -1,7 +1,7 @@
 //! `asperity merge`.
 
 use crate::cli::Merge;
-use asperity::library::{LibraryFault, LoadedLibrary, merge};
+use asperity::library::{LoadedLibrary, merge};
 use asperity_console::Console;
 use asperity_io::{
     diagnostic::{Failures, one},
@@ -16,9 +16,7 @@ pub(crate) fn run(args: &Merge, console: Console) -> Result<(), Failures> {
     let mut parts = Vec::with_capacity(args.files.len());
     for file in &args.files {
         let part = LoadedLibrary::open(file).map_err(one)?;
-        if part.has_scene {
-            return Err(one(LibraryFault::Scene(part.shown)));
-        }
+        part.refuse_scene().map_err(one)?;
         parts.push(part);
     }
     let bytes = merge(&parts)?;

@@ -3,7 +3,7 @@
 use crate::cli::Rename;
 use asperity::{
     emit::textures::{Textures, TexturesProblem},
-    library::{LibraryFault, LoadedLibrary, check_name},
+    library::{LoadedLibrary, check_name},
 };
 use asperity_console::Console;
 use asperity_io::{
@@ -19,9 +19,7 @@ pub(crate) fn run(args: &Rename, console: Console) -> Result<(), Failures> {
     let output = outputs.open(&args.output).map_err(one)?;
     let console = console.beside(&outputs);
     let mut shelf = LoadedLibrary::open(&args.file).map_err(one)?;
-    if shelf.has_scene {
-        return Err(one(LibraryFault::Scene(shelf.shown)));
-    }
+    shelf.refuse_scene().map_err(one)?;
     let Some(index) = shelf.position(&args.texture) else {
         let count = shelf.textures.len();
         let wanted = args.texture.clone();

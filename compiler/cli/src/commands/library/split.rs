@@ -2,9 +2,8 @@
 
 use crate::cli::Split;
 use asperity::{
-    emit::sections::renamed,
+    emit::{lower::LowerError, sections::renamed},
     library::{LoadedLibrary, split},
-    sources::latents::EditError,
 };
 use asperity_console::Console;
 use asperity_formats::Asset;
@@ -64,7 +63,7 @@ fn assets(shelf: &LoadedLibrary) -> Result<(Files, Vec<String>), Failures> {
         let bytes = if own {
             bytes.clone()
         } else {
-            renamed(bytes, name).map_err(|e| one(EditError::from(e)))?
+            renamed(bytes, name).map_err(|e| one(LowerError::from(e)))?
         };
         files.push((file, bytes));
     }

@@ -2,7 +2,7 @@
 
 use super::output::Mixing;
 use crate::{cli::Edit as Arguments, commands::input::Input};
-use asperity::sources::latents::{Edit, EditError, LatentEditor, Sliders};
+use asperity::sources::latents::{Edit, LatentEditor, Sliders, nothing_asked};
 use asperity_console::Console;
 use asperity_io::diagnostic::{Failures, one};
 
@@ -25,7 +25,7 @@ pub(crate) fn run(args: &Arguments, console: Console) -> Result<(), Failures> {
     let edit = (!args.undo).then_some(edit);
     // Before the model is loaded.
     if edit.as_ref().is_some_and(Edit::is_still) {
-        return Err(one(EditError::NothingAsked));
+        return Err(one(nothing_asked()));
     }
     let input = Input::of(&args.file);
     let mixing = Mixing::open(&args.mixed, &[&input], console)?;

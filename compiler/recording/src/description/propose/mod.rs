@@ -9,7 +9,8 @@ mod other_files;
 mod tests;
 
 use super::{quantity::Quantity, schema::Axis};
-use crate::{error::RecordingError, reader};
+use crate::reader;
+use asperity_io::diagnostic::Fault;
 use entry::{Entry, Proposed};
 use std::{fmt::Write as _, path::Path};
 
@@ -34,8 +35,8 @@ pub struct Proposal {
 /// holds a recording.
 ///
 /// # Errors
-/// [`RecordingError`] of the first file of a known kind where none can be read.
-pub fn propose(folder: &Path) -> Result<Option<Proposal>, RecordingError> {
+/// [`Fault`] of the first file of a known kind where none can be read.
+pub fn propose(folder: &Path) -> Result<Option<Proposal>, Fault> {
     let Ok(entries) = std::fs::read_dir(folder) else {
         return Ok(None);
     };
@@ -58,7 +59,7 @@ pub fn propose(folder: &Path) -> Result<Option<Proposal>, RecordingError> {
                 Err(why) => left_out.push((name, why)),
             },
             Err(error) => {
-                left_out.push((name, error.problem.to_string()));
+                left_out.push((name, error.what.clone()));
                 fault.get_or_insert(error);
             }
         }

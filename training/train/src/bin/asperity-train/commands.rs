@@ -5,7 +5,10 @@ use crate::{
     console::{self, Bar},
     setup,
 };
-use asperity::learned::{inference::Backend, text::TextEncoder};
+use asperity::learned::{
+    inference::{Backend, not_installed},
+    text::TextEncoder,
+};
 use asperity_corpus::{Corpus, reference::LexiconEntry};
 use asperity_io::diagnostic::{Diagnostic, Failure};
 use asperity_train::{
@@ -55,7 +58,7 @@ fn fit(args: &cli::Fit) -> Result<(), Failure> {
     let config = configuration(args)?;
     ModelFiles::check(&args.output)?;
     console::listen()?;
-    let backend = Backend::open(args.backend)?;
+    let backend = Backend::open(args.backend).map_err(not_installed)?;
     let encoder = setup::text_encoder(&args.text_encoder, &backend)?;
     let threads = setup::threads(args.threads);
     let mut bar = Bar::new(args.quiet, config.optimiser.epochs);

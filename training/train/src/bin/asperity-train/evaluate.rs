@@ -5,7 +5,7 @@ use crate::{
     setup,
 };
 use asperity::learned::{
-    inference::{Backend, BackendName},
+    inference::{Backend, BackendName, not_installed},
     text::TextEncoderChoice,
 };
 use asperity_io::diagnostic::Failure;
@@ -79,7 +79,7 @@ pub(crate) fn run(args: &Evaluate) -> Result<(), Failure> {
         report: &args.output,
     };
     console::listen()?;
-    let backend = Backend::open(args.backend)?;
+    let backend = Backend::open(args.backend).map_err(not_installed)?;
     let encoder = setup::text_encoder(&args.text_encoder, &backend)?;
     let threads = setup::threads(args.threads);
     let mut bar = Bar(console::bar(args.quiet, 1));
