@@ -2,15 +2,18 @@
 
 use super::PROMPTS;
 use asperity::{
-    driver::Stopped,
+    driver::{self, Stopped},
+    emit::raise::raise,
     learned::Certainty,
     model::attributes::{self, Attributes},
     passes::reduce::Fidelity,
     pipeline::{PipelineError, Request},
     sources::{
+        Tools, builtin,
         latents::Scale,
-        prompt::{CompiledPrompt, Options, PromptError},
+        prompt::{CompiledPrompt, Options, Picture, Prompt, PromptError},
     },
+    views::preview,
 };
 use asperity_formats::Asset;
 use asperity_tests::{
@@ -239,4 +242,23 @@ fn any_text_at_all_gives_a_texture() {
     for prompt in ["?", "ﷺ 🪨🧽", "a\u{0}b", "'; DROP TABLE--", "é́́́", "0"] {
         assert!(PROMPTS.compile(prompt, &plain()).is_ok(), "{prompt:?}");
     }
+}
+
+#[test]
+fn a_picture_made_elsewhere_is_the_preview_and_the_notes_say_what_made_it() {
+    let png = preview::png(&builtin::texture(), 64).unwrap();
+    let source = Prompt {
+        text: "cork".into(),
+        seed: 0,
+        picture: Some(Picture {
+            png: png.clone(),
+            made: "by hand".into(),
+        }),
+    };
+    let request = plain().request;
+    let with = driver::compile(&source, &request, &Tools::of(&PROMPTS)).unwrap();
+    let asset = Asset::parse(&with.lowered.bytes).unwrap();
+    assert_eq!(asset.preview_png(), Some(&png[..]));
+    let notes = raise(&asset).provenance.notes;
+    assert!(notes.ends_with("Preview by hand."), "{notes}");
 }
