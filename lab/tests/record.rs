@@ -3,7 +3,7 @@
 
 use asperity::{
     emit::lower,
-    pipeline::Clock,
+    pipeline::Pipeline,
     sources::{builtin, recording},
 };
 use asperity_experiments::import_accuracy::{Sensors, compare_at};
@@ -159,7 +159,8 @@ fn the_texture_that_was_stroked_comes_back_from_the_folder() {
         .collect();
     assert!(faults.is_empty(), "{faults:?}");
 
-    let analysis = recording::analyse(folder.path(), false, Clock::default()).expect("a texture");
+    let analysis =
+        recording::analyse(folder.path(), false, &mut Pipeline::default()).expect("a texture");
     let found = compare_at(
         &builtin::texture(),
         recorder.visits,

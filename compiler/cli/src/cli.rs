@@ -1,6 +1,5 @@
 //! The command line: commands, arguments, help.
 
-mod diffusion;
 mod groups;
 mod import;
 mod interchange;
@@ -9,7 +8,6 @@ mod mixing;
 mod studio;
 mod views;
 
-pub(crate) use diffusion::Diffusion;
 pub(crate) use groups::{PreviewOptions, ReportOptions};
 pub(crate) use import::{Import, ImportHatt, ImportModel, ImportRecording, RecordCheck};
 pub(crate) use interchange::{Export, ImportEffects};
@@ -135,7 +133,6 @@ Examples:
   asperity compile \"felt\" -o felt.asp --text-encoder clip:./clip --model ./clip-model
   asperity compile \"felt\" -o felt.asp --emit-model felt.json --timings"
 )]
-#[command(mut_arg("no_preview", |no_preview| no_preview.conflicts_with("diffusion")))]
 pub(crate) struct Compile {
     /// Description of the surface: what it feels or looks like, is made of, or is used for
     pub(crate) prompt: String,
@@ -158,8 +155,9 @@ pub(crate) struct Compile {
     pub(crate) inference: Inference,
     #[command(flatten)]
     pub(crate) preview: PreviewOptions,
-    #[command(flatten)]
-    pub(crate) diffusion: Diffusion,
+    /// Draw the picture with Stable Diffusion, from this ONNX folder (see docs/preview.md)
+    #[arg(long, value_name = "DIR", conflicts_with = "no_preview")]
+    pub(crate) diffusion: Option<PathBuf>,
     /// Draw the texture on one sheet, as `asperity plot` does
     #[arg(long, value_name = "FILE.png")]
     pub(crate) plot: Option<PathBuf>,
@@ -169,9 +167,6 @@ pub(crate) struct Compile {
     /// Explain how each word was read, and how far it moved each attribute
     #[arg(long)]
     pub(crate) explain: bool,
-    /// Also report attributes in physical units, gains, and what each pass did
-    #[arg(long)]
-    pub(crate) details: bool,
     #[command(flatten)]
     pub(crate) reporting: ReportOptions,
 }

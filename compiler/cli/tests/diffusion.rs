@@ -93,23 +93,13 @@ fn a_picture_of_diffusion_says_what_made_it_and_repeats_to_the_byte() {
 }
 
 #[test]
+#[ignore = "needs ONNX Runtime"]
 fn compile_embeds_the_picture_and_says_so_in_the_notes() {
     let folder = folder();
     let folder = folder.path();
     let plain = ["compile", "cork", "-o", "plain.asp"];
     assert!(asperity(folder, &plain).status.success());
-    let with = [
-        "compile",
-        "cork",
-        "-o",
-        "with.asp",
-        "--diffusion",
-        "sd",
-        "--diffusion-backend",
-        "portable",
-        "--steps",
-        "3",
-    ];
+    let with = ["compile", "cork", "-o", "with.asp", "--diffusion", "sd"];
     let output = asperity(folder, &with);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let read = |name: &str| fs::read(folder.join(name)).expect("an asset");
@@ -118,7 +108,7 @@ fn compile_embeds_the_picture_and_says_so_in_the_notes() {
         Asset::parse(&plain).expect("an asset"),
         Asset::parse(&with).expect("an asset"),
     );
-    let made = "by diffusion: asperity/tiny, ddim, 3 steps, guidance 7.5, seed 0";
+    let made = "by diffusion: asperity/tiny, ddim, 30 steps, guidance 7.5, seed 0";
     assert!(text(&output.stdout).contains(made));
     let notes = asperity::emit::raise::raise(&with).provenance.notes;
     assert!(notes.ends_with(&format!("Preview {made}.")), "{notes}");

@@ -15,7 +15,7 @@
 //! machine; the bits of a picture are those of the engine.
 //!
 //! ```
-//! use asperity_diffusion::{Method, Parts, Request, StableDiffusion, tiny};
+//! use asperity_diffusion::{Parts, Request, StableDiffusion, tiny};
 //! use asperity_nn::{Portable, Session};
 //!
 //! let files = tiny::folder(&tiny::Options::default());
@@ -36,15 +36,7 @@
 //!     unet: network("unet/model.onnx"),
 //!     vae_decoder: network("vae_decoder/model.onnx"),
 //! })?;
-//! let request = Request {
-//!     prompt: "cork",
-//!     negative: "",
-//!     steps: 4,
-//!     guidance: 7.5,
-//!     method: Method::Ddim,
-//!     seed: 0,
-//!     tile: true,
-//! };
+//! let request = Request { steps: 4, tile: true, ..Request::new("cork".into(), 0) };
 //! let sampled = model.sample(&request, &mut |_| {})?;
 //! assert_eq!(sampled.picture.size, tiny::PICTURE);
 //! # Ok::<(), asperity_diffusion::DiffusionError>(())

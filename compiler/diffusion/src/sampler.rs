@@ -26,11 +26,11 @@ pub struct StableDiffusion {
 
 /// A request to a model.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Request<'a> {
+pub struct Request {
     /// Description of the picture.
-    pub prompt: &'a str,
+    pub prompt: String,
     /// Description to steer away from; may be empty.
-    pub negative: &'a str,
+    pub negative: String,
     /// Number of steps.
     pub steps: usize,
     /// Guidance scale: factor from the negative prediction to that of the prompt; 1 follows the prompt alone.
@@ -41,6 +41,22 @@ pub struct Request<'a> {
     pub seed: u64,
     /// True if the picture repeats in both directions.
     pub tile: bool,
+}
+
+impl Request {
+    /// A picture of a prompt in 30 steps of DDIM, guidance 7.5.
+    #[must_use]
+    pub fn new(prompt: String, seed: u64) -> Self {
+        Self {
+            prompt,
+            negative: String::new(),
+            steps: 30,
+            guidance: 7.5,
+            method: Method::default(),
+            seed,
+            tile: false,
+        }
+    }
 }
 
 /// A picture, and what a user should know of it.
@@ -92,14 +108,14 @@ impl StableDiffusion {
     /// what is no number.
     pub fn sample(
         &self,
-        request: &Request<'_>,
+        request: &Request,
         on_step: &mut dyn FnMut(usize),
     ) -> Result<Sampled, DiffusionError> {
         let whole = self.unet.takes_whole_steps();
         let schedule = Schedule::new(&self.scheduler, request.method, request.steps, whole)
             .map_err(|problem| problem.of(SCHEDULER_CONFIG))?;
-        let prompt = self.tokens.encode(request.prompt);
-        let negative = self.tokens.encode(request.negative);
+        let prompt = self.tokens.encode(&request.prompt);
+        let negative = self.tokens.encode(&request.negative);
         let guidance = Guidance {
             prompt: &self.text_encoder.encode(&prompt.ids)?,
             negative: &self.text_encoder.encode(&negative.ids)?,
@@ -114,7 +130,7 @@ impl StableDiffusion {
 
     fn denoised(
         &self,
-        request: &Request<'_>,
+        request: &Request,
         schedule: &Schedule,
         guidance: &Guidance<'_>,
         on_step: &mut dyn FnMut(usize),

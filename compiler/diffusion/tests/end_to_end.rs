@@ -11,14 +11,14 @@ use asperity_nn::ElementType;
 
 /// The picture that a right sampler ends at: x₀(negative) + scale·(x₀(prompt) − x₀(negative)),
 /// decoded.
-fn expected(request: &Request<'_>, options: &Options) -> Picture {
+fn expected(request: &Request, options: &Options) -> Picture {
     let parts = common::parts(options);
     let settings = parts.tokenizer_config.as_deref();
     let tokens = Tokens::parse(&parts.vocabulary, &parts.merges, settings).expect("a tokenizer");
     let clean = |text: &str| tiny::clean(&tokens.encode(text).ids, options);
-    let pairs = clean(request.negative)
+    let pairs = clean(&request.negative)
         .into_iter()
-        .zip(clean(request.prompt));
+        .zip(clean(&request.prompt));
     let latent: Vec<f32> = pairs
         .map(|(without, with)| without + request.guidance * (with - without))
         .collect();
@@ -100,8 +100,8 @@ fn a_prompt_guidance_and_a_negative_prompt_change_the_picture() {
         ("cork", "", 2.0),
     ] {
         let request = Request {
-            prompt,
-            negative,
+            prompt: prompt.into(),
+            negative: negative.into(),
             guidance,
             ..cork()
         };
@@ -188,7 +188,7 @@ fn tokens_that_do_not_fit_are_counted() {
     let model = opened(&Options::default(), |_| {}).expect("a model");
     let long = "cork ".repeat(80);
     let request = Request {
-        prompt: &long,
+        prompt: long,
         ..cork()
     };
     assert_eq!(

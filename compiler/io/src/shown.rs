@@ -104,6 +104,16 @@ pub fn size(bytes: u64) -> String {
     }
 }
 
+/// The longest beginning of whole characters within a number of bytes.
+#[must_use]
+pub fn shortened(text: &str, bytes: usize) -> &str {
+    let mut end = text.len().min(bytes);
+    while !text.is_char_boundary(end) {
+        end -= 1;
+    }
+    &text[..end]
+}
+
 /// The text with long lines, and many lines, cut in their middle, where `…` then stands.
 #[must_use]
 pub fn excerpt(text: &str) -> String {
@@ -178,6 +188,7 @@ mod tests {
         ] {
             assert_eq!(size(bytes), shown);
         }
+        assert_eq!(shortened("a é", 3), "a ");
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Where a TOML file is wrong, in one line.
 
+use crate::shown::shortened;
 use std::{fmt, ops::Range};
 
 /// Characters of the line that are shown on each side of the place.
@@ -23,11 +24,8 @@ impl TomlError {
     #[must_use]
     pub fn new(text: &str, error: &toml::de::Error) -> Self {
         let Range { start, .. } = error.span().unwrap_or_default();
-        let mut start = start.min(text.len());
-        while !text.is_char_boundary(start) {
-            start -= 1;
-        }
-        let (before, after) = text.split_at(start);
+        let before = shortened(text, start);
+        let after = &text[before.len()..];
         let begun = before.rsplit('\n').next().unwrap_or_default();
         let rest = after.lines().next().unwrap_or_default();
         let column = begun.chars().count();

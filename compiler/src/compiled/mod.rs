@@ -180,7 +180,9 @@ impl Compiled {
 /// Findings of a source, for reports.
 pub trait Findings: Any + fmt::Debug + Send + Sync {
     /// The report for people, of one line or more.
-    fn text(&self, compiled: &Compiled) -> String;
+    fn text(&self, compiled: &Compiled) -> String {
+        compiled.line()
+    }
 
     /// The report for machines.
     fn json(&self, compiled: &Compiled) -> Value {

@@ -11,7 +11,7 @@ use super::{
 use crate::{
     emit::raise::raise,
     views::{
-        listen::{Gesture, Stroke, check_taps, not_encoded, perform},
+        listen::{self, Gesture, Stroke, check_taps, not_encoded, perform},
         preview,
     },
 };
@@ -191,14 +191,7 @@ pub fn session(
         force_n: force_n.unwrap_or(STROKE.force_n),
         time_s: time_s.unwrap_or(STROKE.time_s),
     };
-    Gesture {
-        strokes: if taps && !stated {
-            Vec::new()
-        } else {
-            vec![stroke]
-        },
-        taps: taps || !stated,
-    }
+    Gesture::chosen(stated.then_some(stroke), taps, vec![stroke])
 }
 
 /// A texture in a format.
@@ -322,7 +315,7 @@ pub fn export(asset: &Asset<'_>, format: ClipFormat, options: &Options) -> Resul
             (bytes, Some(track.unwrap_or_default()))
         }
         ClipFormat::Wav => {
-            let bytes = wav::write(&wav::samples(&clip)).map_err(not_encoded)?;
+            let bytes = listen::wav(&wav::samples(&clip)).map_err(not_encoded)?;
             (bytes, None)
         }
         ClipFormat::Csv => (csv::write(&clip), None),

@@ -32,11 +32,12 @@ pub(super) struct Document {
     pub(super) description: String,
     #[serde(default = "millisecond")]
     pub(super) timescale: u32,
-    #[serde(default)]
-    pub(super) avatars: Vec<Nothing>,
+    /// An empty list, which is not read, as all of this type.
+    #[serde(skip_deserializing)]
+    pub(super) avatars: Vec<()>,
     pub(super) perceptions: Vec<Perception>,
-    #[serde(default)]
-    pub(super) syncs: Vec<Nothing>,
+    #[serde(skip_deserializing)]
+    pub(super) syncs: Vec<()>,
 }
 
 fn millisecond() -> u32 {
@@ -49,8 +50,8 @@ pub(super) struct Perception {
     pub(super) avatar_id: i32,
     pub(super) description: String,
     pub(super) perception_modality: String,
-    #[serde(default)]
-    pub(super) reference_devices: Vec<Nothing>,
+    #[serde(skip_deserializing)]
+    pub(super) reference_devices: Vec<()>,
     #[serde(default)]
     pub(super) effect_library: Vec<Effect>,
     pub(super) channels: Vec<Channel>,
@@ -98,22 +99,6 @@ pub(super) struct Keyframe {
     pub(super) amplitude_modulation: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) frequency_modulation: Option<i64>,
-}
-
-/// A value that is ignored on reading and written empty.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Nothing;
-
-impl Serialize for Nothing {
-    fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.serialize_unit()
-    }
-}
-
-impl<'de> Deserialize<'de> for Nothing {
-    fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        serde::de::IgnoredAny::deserialize(from).map(|_| Self)
-    }
 }
 
 const CURVE: &str = "Curve";

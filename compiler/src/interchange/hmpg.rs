@@ -6,6 +6,7 @@
 //! have 8 bits, which is what this form loses against HJIF.
 
 use super::hjif::{Band, Channel, Document, Effect, Perception};
+use asperity_io::shown::shortened;
 
 /// Ticks of a unit, in parts of a second.
 const UNITS_A_SECOND: f64 = 1000.0 / 128.0;
@@ -290,12 +291,9 @@ impl Bits {
 
     /// A length of 8 bits and as many bytes, cut between characters.
     fn text(&mut self, text: &str) {
-        let mut end = text.len().min(255);
-        while !text.is_char_boundary(end) {
-            end -= 1;
-        }
-        self.put(end as u64, 8);
-        for byte in text[..end].bytes() {
+        let text = shortened(text, 255);
+        self.put(text.len() as u64, 8);
+        for byte in text.bytes() {
             self.put(u64::from(byte), 8);
         }
     }

@@ -1,7 +1,7 @@
 //! A clip as a mono WAV of 16 bits at 44.1 kHz.
 
 use super::clip::{Clip, Take};
-use crate::views::listen::{SOUND_HZ, wav};
+use crate::views::listen::SOUND_HZ;
 use asperity_texture::signal::resample::resample;
 
 /// A clip as 16-bit samples; strokes and taps each have their scale.
@@ -21,11 +21,6 @@ pub(super) fn samples(clip: &Clip) -> Vec<i16> {
         add(take, clip.scale.tap_m_s2);
     }
     samples
-}
-
-/// Writes samples of a clip.
-pub(super) fn write(samples: &[i16]) -> Result<Vec<u8>, hound::Error> {
-    wav(samples)
 }
 
 /// Returns the samples as played, in full scales.

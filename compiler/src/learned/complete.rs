@@ -37,16 +37,6 @@ pub fn taps_of_grid(
     Ok(texture::taps(description, &decoded, gains))
 }
 
-/// An AR grid, edge models included, decoded from a tap bank.
-///
-/// # Errors
-/// [`Fault`] when a network fails.
-pub fn grid_of_taps(model: &LearnedModel, taps: &TapBank) -> Result<ModelGrid, Fault> {
-    let description = model.description();
-    let z = model.encode(Present::Taps(&tap_channels(&description.taps, taps)))?;
-    Ok(texture::grid(&description.grid, &model.decode_grid(&z)?))
-}
-
 /// Returns the AR encoder's input for a grid: 21 LSFs and the level in every bin.
 ///
 /// Within the grid the log spectra of a triangle's corners are mixed with their barycentric weights.

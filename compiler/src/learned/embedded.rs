@@ -70,15 +70,9 @@ pub fn word_table() -> Result<WordTable, Fault> {
 /// Bytes of the text encoder and of the learned model.
 #[must_use]
 pub fn sizes() -> (usize, usize) {
-    let files = model();
-    let model = files.description.len()
-        + files.text_projection.len()
-        + files.ar_decoder.len()
-        + files.tap_decoder.len()
-        + files.encoder.len();
     (
         TEXT_ENCODER.len() + VOCABULARY.len() + WORD_ROWS.len() + WORD_VECTORS.len(),
-        model,
+        model().parts().iter().map(|part| part.len()).sum(),
     )
 }
 

@@ -35,16 +35,19 @@ impl Files {
     #[must_use]
     pub fn checksum(&self) -> u32 {
         let mut crc = crc32fast::Hasher::new();
-        crc.update(self.description.as_bytes());
-        for network in [
+        self.parts().into_iter().for_each(|part| crc.update(part));
+        crc.finalize()
+    }
+
+    /// The bytes of each.
+    pub(super) fn parts(&self) -> [&[u8]; 5] {
+        [
+            self.description.as_bytes(),
             &self.text_projection,
             &self.ar_decoder,
             &self.tap_decoder,
             &self.encoder,
-        ] {
-            crc.update(network);
-        }
-        crc.finalize()
+        ]
     }
 
     /// Reads a model folder.

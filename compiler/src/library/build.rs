@@ -347,9 +347,9 @@ fn keys(
     if !failures.is_empty() {
         return Err(failures);
     }
-    // Where a texture lies, in an order in which those that it is made of come first.
+    // Where a texture lies, in an order in which those that it is made of come first. A checked manifest has no cycle.
     let mut places: Vec<Option<Key>> = vec![None; entries.len()];
-    for index in order(entries) {
+    for index in order(entries).unwrap_or_default() {
         let entry = &entries[index];
         let parts = Parts::new(entry.origin.key());
         let of = |parts: Parts, other: usize| {

@@ -20,15 +20,6 @@ impl fmt::Debug for Clock {
     }
 }
 
-impl Clock {
-    /// Does the work, and says how long it took.
-    pub(crate) fn time<T>(self, work: impl FnOnce() -> T) -> (T, Duration) {
-        let start = (self.0)();
-        let result = work();
-        (result, (self.0)().saturating_sub(start))
-    }
-}
-
 /// A step on the way from a source to a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Pass {
@@ -36,6 +27,18 @@ pub enum Pass {
     Generate,
     /// A file becomes a model.
     Read,
+    /// A recording is checked, and its files are aligned.
+    Check,
+    /// The resonances of tool and sensor are found and compensated.
+    Resonance,
+    /// A recording is cut into stretches of strokes.
+    Segments,
+    /// Models are fitted over speed and force.
+    Grid,
+    /// Friction is measured.
+    Friction,
+    /// Impacts are found, and become transients.
+    Taps,
     /// A prompt becomes a text vector and a latent.
     Text,
     /// A latent becomes a model.
@@ -71,6 +74,12 @@ impl Pass {
         match self {
             Self::Generate => "generate",
             Self::Read => "read",
+            Self::Check => "check and align",
+            Self::Resonance => "resonance",
+            Self::Segments => "segments",
+            Self::Grid => "grid",
+            Self::Friction => "friction",
+            Self::Taps => "taps",
             Self::Text => "text",
             Self::Decode => "decode",
             Self::Complete => "complete",
@@ -131,7 +140,7 @@ impl Timings {
 impl fmt::Display for Timings {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut line = |name: &str, took: Duration| {
-            writeln!(f, "  {name:<10} {:>10.3} ms", 1e3 * took.as_secs_f64())
+            writeln!(f, "  {name:<15} {:>10.3} ms", 1e3 * took.as_secs_f64())
         };
         for (pass, took) in self.iter() {
             line(pass.name(), took)?;
@@ -143,6 +152,7 @@ impl fmt::Display for Timings {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::pipeline::Pipeline;
     use std::cell::Cell;
 
     #[test]
@@ -167,8 +177,13 @@ mod tests {
     fn work_takes_the_time_that_the_clock_says() {
         thread_local!(static NOW: Cell<Duration> = const { Cell::new(Duration::MAX) });
         NOW.set(Duration::from_secs(5));
-        let work = || NOW.set(NOW.get() + Duration::from_secs(3));
-        assert_eq!(Clock(|| NOW.get()).time(work), ((), Duration::from_secs(3)));
-        assert_eq!(Clock::default().time(work), ((), Duration::ZERO));
+        for (clock, took) in [
+            (Clock(|| NOW.get()), Duration::from_secs(3)),
+            (Clock::default(), Duration::ZERO),
+        ] {
+            let mut pipeline = Pipeline::timed(clock);
+            pipeline.run(Pass::Read, || NOW.set(NOW.get() + Duration::from_secs(3)));
+            assert_eq!(pipeline.timings().0, [(Pass::Read, took)]);
+        }
     }
 }

@@ -5,7 +5,7 @@
 
 use crate::learned::inference::{Backend, BackendName};
 use asperity_diffusion::{
-    DiffusionError, Parts, Picture, Request, StableDiffusion,
+    DiffusionError, Parts, Picture, StableDiffusion,
     folder::{
         MERGES, MODEL_INDEX, SCHEDULER_CONFIG, TEXT_ENCODER, TOKENIZER_CONFIG, UNET, UNET_CONFIG,
         VAE_CONFIG, VAE_DECODER, VOCABULARY,
@@ -24,26 +24,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-pub use asperity_diffusion::Method;
-
-/// Picture options.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Options {
-    /// Prompt.
-    pub prompt: String,
-    /// Negative prompt; may be empty.
-    pub negative: String,
-    /// Steps from noise to the picture.
-    pub steps: usize,
-    /// Guidance scale: the length of each step towards the prompt; 1 leaves the negative prompt out.
-    pub guidance: f32,
-    /// Sampling method.
-    pub method: Method,
-    /// Seed of the noise.
-    pub seed: u64,
-    /// True if the picture repeats in both directions.
-    pub tile: bool,
-}
+pub use asperity_diffusion::{Method, Request};
 
 /// A model of a folder.
 pub struct Model {
@@ -223,39 +204,30 @@ impl Model {
     /// [`Fault`] when a network fails, or gives what is no number.
     pub fn draw(
         &self,
-        options: &Options,
+        request: Request,
         size_px: Option<u32>,
         on_step: &mut dyn FnMut(usize),
     ) -> Result<Drawn, Fault> {
-        let request = Request {
-            prompt: &options.prompt,
-            negative: &options.negative,
-            steps: options.steps,
-            guidance: options.guidance,
-            method: options.method,
-            seed: options.seed,
-            tile: options.tile,
-        };
         let sampled = self.diffusion.sample(&request, on_step);
         let sampled = sampled.map_err(|error| of_model(&self.folder, &error))?;
         let picture = match size_px {
-            Some(size) => sampled.picture.resized(size as usize, options.tile),
+            Some(size) => sampled.picture.resized(size as usize, request.tile),
             None => sampled.picture,
         };
-        let repeats = if options.tile { ", repeats" } else { "" };
+        let repeats = if request.tile { ", repeats" } else { "" };
         Ok(Drawn {
             picture,
-            prompt: options.prompt.clone(),
-            negative: options.negative.clone(),
             note: format!(
                 "by diffusion: {}, {}, {} steps, guidance {}, seed {}{repeats}",
                 self.diffusion.name(),
-                options.method,
-                options.steps,
-                options.guidance,
-                options.seed
+                request.method,
+                request.steps,
+                request.guidance,
+                request.seed
             ),
             cut: sampled.cut,
+            prompt: request.prompt,
+            negative: request.negative,
         })
     }
 }

@@ -3,7 +3,7 @@
 use super::PROMPTS;
 use asperity::{
     emit::raise,
-    learned::complete,
+    learned::{Present, complete, texture},
     model::{TapBank, mesh, tap_synthesis},
     signal::spectrum::trace_centroid_hz,
     sources::builtin,
@@ -62,7 +62,10 @@ fn a_tap_bank_alone_gives_a_whole_grid_and_a_harder_one_a_harder_texture() {
     let gains = builtin::texture().gains;
     let grid = |freq_hz| {
         let bank = tap_synthesis::bank(freq_hz, &gains);
-        complete::grid_of_taps(PROMPTS.model(), &bank).unwrap()
+        let description = PROMPTS.model().description();
+        let channels = complete::tap_channels(&description.taps, &bank);
+        let z = PROMPTS.model().encode(Present::Taps(&channels)).unwrap();
+        texture::grid(&description.grid, &PROMPTS.model().decode_grid(&z).unwrap())
     };
     assert_eq!(mesh::check(&grid(200.0)), Ok(()));
     // What taps as soft as foam or as hard as steel come back as, through the latent.

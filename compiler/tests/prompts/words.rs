@@ -7,7 +7,10 @@ use asperity::{
     model::attributes::{self, Attributes},
     passes::reduce::Fidelity,
     pipeline::{PipelineError, Request},
-    sources::prompt::{Options, PromptError},
+    sources::{
+        latents::Scale,
+        prompt::{CompiledPrompt, Options, PromptError},
+    },
 };
 use asperity_formats::Asset;
 use asperity_tests::{
@@ -210,7 +213,9 @@ fn long_prompts_are_cut_with_a_warning_and_empty_ones_refused() {
             compiled.warnings
         );
         assert!(compiled.warnings.iter().all(|warning| warning.len() < 1000));
-        assert!(compiled.text().len() < 4000);
+        let found: &CompiledPrompt = compiled.found().unwrap();
+        let scale = Scale::of(PROMPTS.model().description());
+        assert!(found.summary(&compiled, &scale).len() < 4000);
         assert!(compiled.texture.name.len() <= 64);
     }
     let refused = PROMPTS.compile(" \n", &plain()).unwrap_err();

@@ -1,7 +1,7 @@
 //! The import takes strokes as hands make them.
 
 use asperity::{
-    pipeline::Clock,
+    pipeline::Pipeline,
     sources::{builtin, recording},
 };
 use asperity_experiments::import_accuracy::{self, Sensors, Strokes, Until};
@@ -19,7 +19,8 @@ fn free_strokes_give_a_texture_although_they_are_hardly_ever_steady() {
     let folder = tempfile::tempdir().expect("a folder");
     let sensors = Sensors::seeded(3);
     import_accuracy::record(&performance, &texture, &sensors, 3, folder.path()).expect("room");
-    let analysis = recording::analyse(folder.path(), false, Clock::default()).expect("a texture");
+    let analysis =
+        recording::analyse(folder.path(), false, &mut Pipeline::default()).expect("a texture");
     let covered_s = |is_steady: bool| {
         let segments = analysis.strokes.segments.iter();
         let kind = Segments {

@@ -2,7 +2,7 @@
 //! makes of their files is held against the texture that was stroked.
 
 use asperity::{
-    pipeline::Clock,
+    pipeline::Pipeline,
     sources::{
         builtin,
         recording::{self, Analysis},
@@ -55,7 +55,8 @@ fn written(
 fn imported(alter: impl Fn(&mut Sensors)) -> (Analysis, Comparison) {
     let performance = &*STROKED;
     let (folder, sensors) = written(performance, SEED, alter);
-    let analysis = recording::analyse(folder.path(), false, Clock::default()).expect("a texture");
+    let analysis =
+        recording::analyse(folder.path(), false, &mut Pipeline::default()).expect("a texture");
     let comparison =
         import_accuracy::compare(&builtin::texture(), performance, &sensors, &analysis);
     (analysis, comparison)

@@ -28,6 +28,14 @@ const fn form(program: Program, line: &'static str, target: &'static str, seed: 
     }
 }
 
+const fn asperity(line: &'static str, target: &'static str, seed: Seed) -> Form {
+    form(Compiler, line, target, seed)
+}
+
+const fn lab(line: &'static str, target: &'static str, seed: Seed) -> Form {
+    form(Lab, line, target, seed)
+}
+
 const fn long(program: Program, line: &'static str, target: &'static str, seed: Seed) -> Form {
     Form {
         is_long: true,
@@ -42,309 +50,235 @@ const CACHED: &str = "build cached.toml -o out.aspl --cache cache --json";
 
 /// Their number shares no divisor with the stride of the small size, so that it meets as many of them as it can.
 pub(crate) const FORMS: [Form; 90] = [
-    form(Compiler, "inspect in.asp", "in.asp", Seed::Asset),
-    form(Compiler, "inspect in.asp --json", "in.asp", Seed::Asset),
-    form(Compiler, "inspect in.aspl", "in.aspl", Seed::Library),
-    form(
-        Compiler,
+    asperity("inspect in.asp", "in.asp", Seed::Asset),
+    asperity("inspect in.asp --json", "in.asp", Seed::Asset),
+    asperity("inspect in.aspl", "in.aspl", Seed::Library),
+    asperity(
         "inspect in.aspl --texture a --json",
         "in.aspl",
         Seed::Library,
     ),
-    form(Compiler, "inspect in.aspl --json", "in.aspl", Seed::Scene),
-    form(
-        Lab,
+    asperity("inspect in.aspl --json", "in.aspl", Seed::Scene),
+    lab(
         "jitter in.asp --seconds 0.1 --policy other --no-lock",
         "in.asp",
         Seed::Asset,
     ),
-    form(
-        Compiler,
-        "split in.aspl -o out --into 2",
-        "in.aspl",
-        Seed::Library,
-    ),
-    form(Compiler, "plot in.asp -o out.png", "in.asp", Seed::Asset),
-    form(
-        Compiler,
+    asperity("split in.aspl -o out --into 2", "in.aspl", Seed::Library),
+    asperity("plot in.asp -o out.png", "in.asp", Seed::Asset),
+    asperity(
         "plot in.aspl --texture 1 -o out.png",
         "in.aspl",
         Seed::Library,
     ),
-    form(
-        Compiler,
+    asperity(
         "render in.asp --trajectory stroke.csv -o out.csv",
         "in.asp",
         Seed::Asset,
     ),
-    form(
-        Compiler,
+    asperity(
         "render in.aspl --trajectory stroke.csv -o out.csv",
         "in.aspl",
         Seed::Scene,
     ),
-    form(
-        Compiler,
+    asperity(
         "render in.aspl --texture b --trajectory stroke.csv -o out.csv --seed 3",
         "in.aspl",
         Seed::Library,
     ),
-    form(
-        Compiler,
+    asperity(
         "render good.asp --trajectory in.csv -o out.csv",
         "in.csv",
         Seed::Trajectory,
     ),
-    form(
-        Compiler,
+    asperity(
         "render scene.aspl --trajectory in.csv -o out.csv",
         "in.csv",
         Seed::Trajectory,
     ),
-    form(
-        Compiler,
-        "import hatt in.xml -o out.asp",
-        "in.xml",
-        Seed::Material,
-    ),
-    form(
-        Compiler,
+    asperity("import hatt in.xml -o out.asp", "in.xml", Seed::Material),
+    asperity(
         "import hatt in.xml -o out.asp --fidelity auto",
         "in.xml",
         Seed::Material,
     ),
-    form(
-        Compiler,
+    asperity(
         "import hatt in.xml -o out.asp --complete-taps --emit-model out.json",
         "in.xml",
         Seed::Material,
     ),
-    form(
-        Compiler,
+    asperity(
         "import hatt materials -o out.aspl",
         "materials/in.xml",
         Seed::Material,
     ),
-    form(
-        Compiler,
+    asperity(
         "import hatt materials -o out",
         "materials/in.xml",
         Seed::Material,
     ),
-    form(
-        Compiler,
+    asperity(
         "import model in.json -o out.asp --no-preview",
         "in.json",
         Seed::Model,
     ),
-    form(
-        Compiler,
+    asperity(
         "import model in.json -o out.asp --fidelity auto --rate 2000 --json",
         "in.json",
         Seed::Model,
     ),
-    form(
-        Compiler,
+    asperity(
         "import haptic in.haptic -o out.asp --no-preview",
         "in.haptic",
         Seed::Haptic,
     ),
-    form(
-        Compiler,
+    asperity(
         "import ahap in.ahap -o out.asp --no-preview --json",
         "in.ahap",
         Seed::Ahap,
     ),
-    form(
-        Compiler,
+    asperity(
         "import hjif in.hjif -o out.asp --no-preview --fidelity full",
         "in.hjif",
         Seed::Hjif,
     ),
-    form(
-        Compiler,
+    asperity(
         "export in.asp --to hjif -o out.hjif --json",
         "in.asp",
         Seed::Asset,
     ),
-    form(
-        Compiler,
+    asperity(
         "export in.asp --to gltf -o out.gltf --size 64",
         "in.asp",
         Seed::Asset,
     ),
-    form(
-        Compiler,
+    asperity(
         "export in.aspl --texture a --to ahap -o out.ahap --taps",
         "in.aspl",
         Seed::Library,
     ),
-    form(
-        Compiler,
+    asperity(
         "export in.aspl --to c-array -o out.c",
         "in.aspl",
         Seed::Scene,
     ),
-    form(
-        Compiler,
+    asperity(
         "export in.aspl --to csv -o out --time 0.3",
         "in.aspl",
         Seed::Library,
     ),
-    form(
-        Compiler,
+    asperity(
         "build in.toml -o out.aspl --no-cache",
         "in.toml",
         Seed::Description,
     ),
-    form(
-        Compiler,
+    asperity(
         "build in.toml -o out.aspl --no-cache --target cortex-m4f@48MHz --budget-bytes 9000 --json",
         "in.toml",
         Seed::Description,
     ),
-    form(Compiler, "build in.toml --check", "in.toml", Seed::Manifest),
-    form(Compiler, "build in.csv --check", "in.csv", Seed::Rows),
-    form(
-        Compiler,
+    asperity("build in.toml --check", "in.toml", Seed::Manifest),
+    asperity("build in.csv --check", "in.csv", Seed::Rows),
+    asperity(
         "build scene.toml -o out.aspl --no-cache",
         "good.asp",
         Seed::Asset,
     ),
-    form(
-        Compiler,
+    asperity(
         "build scene.toml -o out.aspl --no-cache",
         "wood.xml",
         Seed::Material,
     ),
-    form(
-        Compiler,
+    asperity(
         "compile cork -o out.asp --model model",
         "model/model.json",
         Seed::ModelFolder,
     ),
-    form(
-        Compiler,
+    asperity(
         "compile cork -o out.asp --model model --no-preview",
         "model/text_projection.onnx",
         Seed::Projection,
     ),
-    form(
-        Compiler,
+    asperity(
         "import hatt wood.xml -o out.asp --complete-taps --model model",
         "model/tap_decoder.onnx",
         Seed::TapDecoder,
     ),
-    form(
-        Compiler,
+    asperity(
         "doctor --model model --json",
         "model/model.json",
         Seed::ModelFolder,
     ),
-    form(
-        Compiler,
+    asperity(
         "doctor --text-encoder clip:clip",
         "clip/model.onnx",
         Seed::Projection,
     ),
-    form(
-        Compiler,
+    asperity(
         "compile cork -o out.asp --text-encoder clip:clip",
         "clip/text_model.onnx",
         Seed::Projection,
     ),
-    form(
-        Lab,
+    lab(
         "feel in.asp --seconds 0.5 --csv out.csv --wav out.wav",
         "in.asp",
         Seed::Asset,
     ),
-    form(
-        Lab,
+    lab(
         "feel in.aspl --texture a --seconds 0.5 --plot out.png",
         "in.aspl",
         Seed::Library,
     ),
-    form(
-        Lab,
+    lab(
         "feel good.asp --seconds 1 --device in.toml --csv out.csv",
         "in.toml",
         Seed::Device,
     ),
-    form(
-        Lab,
+    lab(
         "feel --seconds 1 --grip in.toml --csv out.csv",
         "in.toml",
         Seed::Grip,
     ),
-    form(
-        Compiler,
-        "record-check oak",
-        "oak/recording.toml",
-        Seed::Recording,
-    ),
-    form(
-        Compiler,
-        "record-check oak",
-        "oak/accel.wav",
-        Seed::RecordedWave,
-    ),
-    form(
-        Compiler,
-        "record-check oak",
-        "oak/force.npy",
-        Seed::RecordedArray,
-    ),
-    form(
-        Compiler,
-        "record-check oak",
-        "oak/position.csv",
-        Seed::RecordedTable,
-    ),
-    form(
-        Compiler,
+    asperity("record-check oak", "oak/recording.toml", Seed::Recording),
+    asperity("record-check oak", "oak/accel.wav", Seed::RecordedWave),
+    asperity("record-check oak", "oak/force.npy", Seed::RecordedArray),
+    asperity("record-check oak", "oak/position.csv", Seed::RecordedTable),
+    asperity(
         PAINT,
         "sd/model_index.json",
         Seed::Diffusion("model_index.json"),
     ),
-    form(
-        Compiler,
+    asperity(
         PAINT,
         "sd/scheduler/scheduler_config.json",
         Seed::Diffusion("scheduler/scheduler_config.json"),
     ),
-    form(
-        Compiler,
+    asperity(
         PAINT,
         "sd/tokenizer/vocab.json",
         Seed::Diffusion("tokenizer/vocab.json"),
     ),
-    form(
-        Compiler,
+    asperity(
         PAINT,
         "sd/tokenizer/merges.txt",
         Seed::Diffusion("tokenizer/merges.txt"),
     ),
-    form(
-        Compiler,
+    asperity(
         PAINT,
         "sd/tokenizer/tokenizer_config.json",
         Seed::Diffusion("tokenizer/tokenizer_config.json"),
     ),
-    form(
-        Compiler,
+    asperity(
         PAINT,
         "sd/text_encoder/model.onnx",
         Seed::Diffusion("text_encoder/model.onnx"),
     ),
-    form(
-        Compiler,
+    asperity(
         PAINT,
         "sd/unet/model.onnx",
         Seed::Diffusion("unet/model.onnx"),
     ),
-    form(
-        Compiler,
+    asperity(
         PAINT,
         "sd/vae_decoder/model.onnx",
         Seed::Diffusion("vae_decoder/model.onnx"),
@@ -361,45 +295,38 @@ pub(crate) const FORMS: [Form; 90] = [
         "oak/position.csv",
         Seed::RecordedTable,
     ),
-    form(
-        Lab,
+    lab(
         "device calibrate in.csv -o out.toml",
         "in.csv",
         Seed::Measurement,
     ),
-    form(
-        Lab,
+    lab(
         "device calibrate sweep.csv --profile in.toml -o out.toml",
         "in.toml",
         Seed::Profile,
     ),
-    form(
-        Lab,
+    lab(
         "servo good.asp --device null: --profile in.toml --policy other --no-lock --seconds 0.1",
         "in.toml",
         Seed::Profile,
     ),
-    form(
-        Lab,
+    lab(
         "record out in.asp --device sim:?time=stepped --accel sim: --seconds 1.5 --policy other --no-lock",
         "in.asp",
         Seed::Asset,
     ),
-    form(Compiler, CACHED, ENTRY, Seed::CacheEntry),
-    form(
-        Lab,
+    asperity(CACHED, ENTRY, Seed::CacheEntry),
+    lab(
         "servo good.asp --device replay:in.aspr --seconds 0.1 --policy other --no-lock",
         "in.aspr",
         Seed::Session,
     ),
-    form(
-        Lab,
+    lab(
         "jitter compare in.hlog good.hlog",
         "in.hlog",
         Seed::Intervals,
     ),
-    form(
-        Lab,
+    lab(
         "jitter merge good.hlog in.hlog -o out.hlog",
         "in.hlog",
         Seed::Intervals,
@@ -416,18 +343,12 @@ pub(crate) const FORMS: [Form; 90] = [
         "in.txt",
         Seed::RecordedTable,
     ),
-    form(
-        Lab,
+    lab(
         "device probe sim:in.toml?time=stepped --seconds 0.1",
         "in.toml",
         Seed::Device,
     ),
-    form(
-        Lab,
-        "device list --rules --ids in.toml",
-        "in.toml",
-        Seed::Ids,
-    ),
+    lab("device list --rules --ids in.toml", "in.toml", Seed::Ids),
     long(
         Lab,
         "stability --hatt materials --out out",
@@ -446,77 +367,57 @@ pub(crate) const FORMS: [Form; 90] = [
         "in.csv",
         Seed::Counts,
     ),
-    form(
-        Compiler,
+    asperity(
         "edit in.asp --rougher 5 -o out.asp --no-preview",
         "in.asp",
         Seed::Prompted,
     ),
-    form(
-        Compiler,
+    asperity(
         "blend cork.asp in.asp -o out.asp --no-preview",
         "in.asp",
         Seed::Prompted,
     ),
-    form(
-        Compiler,
+    asperity(
         "compose --tap in.asp --slide cork.asp -o out.asp --no-preview",
         "in.asp",
         Seed::Prompted,
     ),
-    form(
-        Compiler,
+    asperity(
         "encode in.asp -o out.asp --no-preview --json",
         "in.asp",
         Seed::Asset,
     ),
-    form(
-        Compiler,
+    asperity(
         "merge in.aspl cork.asp -o out.aspl",
         "in.aspl",
         Seed::Library,
     ),
-    form(Compiler, "list in.aspl --json", "in.aspl", Seed::Library),
-    form(
-        Compiler,
-        "extract in.aspl a -o out.asp",
-        "in.aspl",
-        Seed::Library,
-    ),
-    form(
-        Compiler,
+    asperity("list in.aspl --json", "in.aspl", Seed::Library),
+    asperity("extract in.aspl a -o out.asp", "in.aspl", Seed::Library),
+    asperity(
         "rename in.aspl a other -o out.aspl",
         "in.aspl",
         Seed::Library,
     ),
-    form(Compiler, "split in.aspl -o out", "in.aspl", Seed::Library),
-    form(Compiler, "diff in.asp good.asp", "in.asp", Seed::Asset),
-    form(
-        Compiler,
+    asperity("split in.aspl -o out", "in.aspl", Seed::Library),
+    asperity("diff in.asp good.asp", "in.asp", Seed::Asset),
+    asperity(
         "listen in.asp -o out.wav --speed 100",
         "in.asp",
         Seed::Asset,
     ),
-    form(
-        Compiler,
-        "studio in.aspl --export out",
-        "in.aspl",
-        Seed::Library,
-    ),
-    form(
-        Lab,
+    asperity("studio in.aspl --export out", "in.aspl", Seed::Library),
+    lab(
         "jitter overlay in.hlog good.hlog -o out.png",
         "in.hlog",
         Seed::Intervals,
     ),
-    form(
-        Lab,
+    lab(
         "bench --hatt materials --seconds 3 -o out",
         "materials/in.xml",
         Seed::Material,
     ),
-    form(
-        Lab,
+    lab(
         "device faults sim:in.toml?time=stepped&grip=firm --patience 1",
         "in.toml",
         Seed::Device,

@@ -22,7 +22,7 @@ impl PreviewOptions {
 }
 
 /// Report options.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Copy, Args)]
 pub(crate) struct ReportOptions {
     /// Print JSON
     #[arg(long)]

@@ -1,8 +1,8 @@
 //! Arguments of the commands that show a texture: as text, picture, sound or forces.
 
-use super::{Diffusion, pixels, within};
-use asperity::interchange::ranges;
-use clap::Args;
+use super::{pixels, within};
+use asperity::{interchange::ranges, learned::inference::BackendName, views::diffusion::Method};
+use clap::{Args, value_parser};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -118,8 +118,38 @@ pub(crate) struct Preview {
     /// Also write a normal map
     #[arg(long, value_name = "FILE.png", conflicts_with = "diffusion")]
     pub(crate) normal: Option<PathBuf>,
-    #[command(flatten)]
-    pub(crate) diffusion: Diffusion,
+    /// Draw the picture with Stable Diffusion, from this ONNX folder (see docs/preview.md)
+    #[arg(long, value_name = "DIR")]
+    pub(crate) diffusion: Option<PathBuf>,
+    /// Denoising steps, 1 to 1000
+    #[arg(long, value_name = "N", default_value_t = 30, value_parser = value_parser!(u16).range(1..=1000), requires = "diffusion")]
+    pub(crate) steps: u16,
+    /// Guidance scale, 1 to 30: how closely to follow the prompt; 1 ignores the negative prompt
+    #[arg(long, value_name = "SCALE", default_value_t = 7.5, value_parser = |text: &str| within(text, &(1.0..=30.0)), requires = "diffusion")]
+    pub(crate) guidance: f32,
+    /// Scheduler of the denoising steps
+    #[arg(
+        long,
+        value_name = "ddim|euler",
+        default_value_t,
+        requires = "diffusion"
+    )]
+    pub(crate) scheduler: Method,
+    /// Negative prompt: what the picture must not show
+    #[arg(
+        long,
+        value_name = "TEXT",
+        default_value = "",
+        hide_default_value = true,
+        requires = "diffusion"
+    )]
+    pub(crate) negative: String,
+    /// Draw a picture that tiles seamlessly; decoding takes four times as long
+    #[arg(long, requires = "diffusion")]
+    pub(crate) tile: bool,
+    /// Back end of the diffusion networks; `portable` is only fast enough for tiny ones, as in tests
+    #[arg(long, value_name = "onnxruntime|portable", default_value_t = BackendName::OnnxRuntime, requires = "diffusion")]
+    pub(crate) diffusion_backend: BackendName,
     /// Prompt for the picture, used as given [default: the texture's, as a texture seen from above]
     #[arg(long, value_name = "TEXT", requires = "diffusion")]
     pub(crate) prompt: Option<String>,

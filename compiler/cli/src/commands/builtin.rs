@@ -12,11 +12,8 @@ use asperity_io::diagnostic::Failures;
 pub(crate) fn run(args: &Arguments, console: Console) -> Result<(), Failures> {
     let wanted = Wanted {
         emit_model: args.emit_model.as_deref(),
-        json: args.reporting.json,
-        timings: args.reporting.timings,
-        ..Wanted::of(&args.output)
+        ..Wanted::of(&args.output, args.reporting)
     };
     let job = Job::open(wanted, &[], console)?;
-    job.run(&Builtin, &Request::default(), &Tools::default())?;
-    Ok(())
+    job.run(&Builtin, &Request::default(), &Tools::default())
 }

@@ -2,17 +2,21 @@
 
 use super::{
     diffusion,
-    one_texture::{Job, Wanted},
+    one_texture::{Job, Wanted, request},
 };
 use crate::cli::Compile;
 use asperity::{
+    learned::inference::BackendName,
     pipeline::Request,
     sources::{
         Tools,
         latents::{LatentEditor, Scale, explain},
         prompt::{self, CompiledPrompt, Picture, Prompt},
     },
-    views::{diffusion::framed, preview},
+    views::{
+        diffusion::{Request as PictureRequest, files, framed},
+        preview,
+    },
 };
 use asperity_console::Console;
 use asperity_io::{
@@ -26,30 +30,24 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
     // Before half a second of loading.
     prompt::check(&args.prompt).map_err(one)?;
     let mut inputs = args.inference.setup().files();
-    inputs.extend(diffusion::files(&args.diffusion));
+    inputs.extend(args.diffusion.iter().flat_map(|folder| files(folder)));
     let wanted = Wanted {
         emit_model: args.emit_model.as_deref(),
         plot: args.plot.as_deref(),
-        json: args.reporting.json,
-        timings: args.reporting.timings,
-        ..Wanted::of(&args.output)
+        ..Wanted::of(&args.output, args.reporting)
     };
     let job = Job::open(wanted, &inputs, console)?;
     let prompt_compiler = args.inference.setup().prompt_compiler()?;
     let request = Request {
         name: args.name.clone(),
-        fidelity: args.fidelity,
-        rate_hz: args.rate,
-        preview_px: args.preview.px(Some(preview::SIZE)),
-        ..Request::default()
+        ..request(args.fidelity, args.rate, &args.preview)
     };
-    let picture = match &args.diffusion.diffusion {
+    let picture = match &args.diffusion {
         Some(folder) => {
             let drawn = diffusion::drawn(
                 folder,
-                &args.diffusion,
-                framed(args.prompt.trim()),
-                args.seed,
+                BackendName::OnnxRuntime,
+                PictureRequest::new(framed(args.prompt.trim()), args.seed),
                 Some(args.preview.preview_size.unwrap_or(preview::SIZE)),
                 job.console,
             )?;
@@ -71,9 +69,6 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
     let summary = compiled.found::<CompiledPrompt>();
     let summary = summary.map(|found| found.summary(&compiled, &scale));
     let mut text = format!("{}\n{}", display(&args.output), summary.unwrap_or_default());
-    if args.details {
-        text += &compiled.text();
-    }
     if let Some(Picture { made, .. }) = &source.picture {
         json["preview"] = made.as_str().into();
         text += &format!("  preview      {made}\n");

@@ -1,36 +1,28 @@
 //! Pictures by Stable Diffusion, for the commands that take `--diffusion`.
 
-use crate::cli::Diffusion;
-use asperity::views::diffusion::{self, Drawn};
+use asperity::{
+    learned::inference::BackendName,
+    views::diffusion::{self, Drawn, Request},
+};
 use asperity_console::Console;
 use asperity_io::diagnostic::{Failures, one};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-/// The files of the folder that the options name, which no output may replace.
-pub(super) fn files(options: &Diffusion) -> Vec<PathBuf> {
-    options
-        .diffusion
-        .as_deref()
-        .map_or_else(Vec::new, diffusion::files)
-}
-
-/// The picture of a prompt, `size_px` wide or as the model makes it. Progress is shown.
+/// The picture that is asked for, `size_px` wide or as the model makes it. Progress is shown.
 pub(super) fn drawn(
     folder: &Path,
-    options: &Diffusion,
-    prompt: String,
-    seed: u64,
+    backend: BackendName,
+    request: Request,
     size_px: Option<u32>,
     console: Console,
 ) -> Result<Drawn, Failures> {
     let activity = console.activity();
     activity.set_message(format!("loading {}", folder.display()));
     activity.enable_steady_tick(std::time::Duration::from_millis(200));
-    let model = diffusion::open(folder, options.diffusion_backend).map_err(one)?;
+    let model = diffusion::open(folder, backend).map_err(one)?;
     activity.finish_and_clear();
-    let bar = console.bar(options.steps.into(), "diffusion");
-    let wanted = options.options(prompt, seed);
-    let drawn = model.draw(&wanted, size_px, &mut |step| bar.set_position(step as u64));
+    let bar = console.bar(request.steps, "diffusion");
+    let drawn = model.draw(request, size_px, &mut |step| bar.set_position(step as u64));
     bar.finish_and_clear();
     let drawn = drawn.map_err(one)?;
     if drawn.cut > 0 {

@@ -12,11 +12,14 @@ use asperity_io::{
     realtime::{self, Setting},
     shown::size,
 };
+use serde::Serialize;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
 /// Result of a single check, with a remedy if it failed.
+#[derive(Serialize)]
 struct Finding {
+    #[serde(skip)]
     what: &'static str,
     found: bool,
     detail: String,
@@ -62,17 +65,13 @@ fn runs(model: &LearnedModel) -> Result<(), Fault> {
 
 fn findings(args: &Doctor) -> Vec<Finding> {
     let (encoder_bytes, model_bytes) = embedded::sizes();
-    let mut findings = vec![Finding {
-        what: "asperity",
-        found: true,
-        detail: format!(
-            "{} ({}, {})",
-            env!("CARGO_PKG_VERSION"),
-            std::env::consts::ARCH,
-            std::env::consts::OS
-        ),
-        remedy: None,
-    }];
+    let program = format!(
+        "{} ({}, {})",
+        env!("CARGO_PKG_VERSION"),
+        std::env::consts::ARCH,
+        std::env::consts::OS
+    );
+    let mut findings = vec![check("asperity", Ok(program))];
     findings.push(check(
         "minilm",
         embedded::text_encoder(&Backend::Portable)
@@ -114,43 +113,24 @@ fn findings(args: &Doctor) -> Vec<Finding> {
             })
             .map_err(told),
     ));
-    findings.push(Finding {
-        what: "portable",
-        found: true,
-        detail: "built in, the same bits on every machine".into(),
-        remedy: None,
-    });
-    findings.push(match asperity_onnxruntime::discover() {
-        Ok(discovery) => Finding {
-            what: "onnxruntime",
-            found: true,
-            detail: discovery.to_string(),
-            remedy: None,
-        },
-        Err(error) => Finding {
-            what: "onnxruntime",
-            found: false,
-            detail: error.to_string(),
-            remedy: Some(not_installed(error).remedy.into()),
-        },
-    });
+    let portable = "built in, the same bits on every machine";
+    findings.push(check("portable", Ok(portable.into())));
+    findings.push(check(
+        "onnxruntime",
+        asperity_onnxruntime::discover()
+            .map(|discovery| discovery.to_string())
+            .map_err(|error| (error.to_string(), not_installed(error).remedy.into())),
+    ));
     findings.push(clip(args));
     findings
 }
 
 fn clip(args: &Doctor) -> Finding {
     let TextEncoderChoice::Clip(folder) = &args.inference.text_encoder else {
-        return Finding {
-            what: "clip",
-            found: false,
-            detail: "no folder given".into(),
-            remedy: Some(
-                "optional: export the text tower of CLIP ViT-B/32 to DIR/text_model.onnx, train \
-                 a projection with asperity-train fit --text-encoder clip:DIR, then give both \
-                 with --text-encoder clip:DIR --model MODEL"
-                    .into(),
-            ),
-        };
+        let remedy = "optional: export the text tower of CLIP ViT-B/32 to DIR/text_model.onnx, train \
+             a projection with asperity-train fit --text-encoder clip:DIR, then give both \
+             with --text-encoder clip:DIR --model MODEL";
+        return check("clip", Err(("no folder given".into(), remedy.into())));
     };
     let opened = Backend::open(args.inference.backend)
         .map_err(|error| one(not_installed(error)))
@@ -170,19 +150,16 @@ fn told(failures: Failures) -> (String, String) {
 }
 
 fn check(what: &'static str, result: Result<String, (String, String)>) -> Finding {
-    match result {
-        Ok(detail) => Finding {
-            what,
-            found: true,
-            detail,
-            remedy: None,
-        },
-        Err((detail, remedy)) => Finding {
-            what,
-            found: false,
-            detail,
-            remedy: Some(remedy),
-        },
+    let found = result.is_ok();
+    let (detail, remedy) = match result {
+        Ok(detail) => (detail, None),
+        Err((detail, remedy)) => (detail, Some(remedy)),
+    };
+    Finding {
+        what,
+        found,
+        detail,
+        remedy,
     }
 }
 
@@ -206,14 +183,7 @@ fn as_text(findings: &[Finding], settings: &[Setting]) -> String {
 fn as_json(findings: &[Finding], settings: &[Setting]) -> Value {
     let mut entries: serde_json::Map<String, Value> = findings
         .iter()
-        .map(|finding| {
-            let value = json!({
-                "found": finding.found,
-                "detail": finding.detail,
-                "remedy": finding.remedy,
-            });
-            (finding.what.to_owned(), value)
-        })
+        .map(|finding| (finding.what.to_owned(), json!(finding)))
         .collect();
     let suited = settings.iter().filter(|setting| setting.good == Some(true));
     let machine = json!({

@@ -1,5 +1,6 @@
 //! `asperity export`.
 
+use super::input::Chosen;
 use crate::cli::Export;
 use asperity::{
     emit::textures::Textures,
@@ -51,10 +52,8 @@ fn source(args: &Export, language: Language, console: Console) -> Result<(), Fai
     let (name, bytes) = match whole {
         Some(bytes) => (stem(&args.file), bytes),
         None => {
-            let wanted = args.texture.as_deref();
-            let bytes = textures.choose(wanted).map_err(one)?;
-            let asset = Asset::parse(&bytes).map_err(|e| one(textures.error(wanted, e.into())))?;
-            (asset.name().to_owned(), bytes)
+            let chosen = Chosen::of(textures, args.texture.clone())?;
+            (chosen.asset()?.name().to_owned(), chosen.bytes)
         }
     };
     let header_name = header.as_deref().and_then(Path::file_name);
@@ -108,9 +107,8 @@ fn clips(args: &Export, format: ClipFormat, console: Console) -> Result<(), Fail
     let mut outputs = Outputs::beside([&args.file]);
     let file = outputs.open(&args.output).map_err(one)?;
     let console = console.beside(&outputs);
-    let wanted = args.texture.as_deref();
-    let bytes = textures.choose(wanted).map_err(one)?;
-    let asset = Asset::parse(&bytes).map_err(|e| one(textures.error(wanted, e.into())))?;
+    let chosen = Chosen::of(textures, args.texture.clone())?;
+    let asset = chosen.asset()?;
     let exported = interchange::export(&asset, format, &options).map_err(one)?;
     outputs.fill(file, &exported.bytes).map_err(one)?;
     outputs.commit().map_err(one)?;

@@ -2,7 +2,7 @@
 
 use super::{
     inference,
-    one_texture::{Job, Wanted},
+    one_texture::{Job, Wanted, request},
 };
 use crate::cli::{ImportEffects, ImportModel, ImportRecording};
 use asperity::{
@@ -12,9 +12,8 @@ use asperity::{
         Source, Tools,
         effects::{Effects, Kind, Options},
         model_file::ModelFile,
-        recording::{Recorded, RecordingFolder},
+        recording::RecordingFolder,
     },
-    views::preview,
 };
 use asperity_console::Console;
 use asperity_io::diagnostic::Failures;
@@ -23,20 +22,10 @@ pub(crate) fn model(args: &ImportModel, console: Console) -> Result<(), Failures
     let source = ModelFile {
         file: args.input.clone(),
     };
-    let wanted = Wanted {
-        json: args.reporting.json,
-        timings: args.reporting.timings,
-        ..Wanted::of(&args.output)
-    };
-    let request = Request {
-        fidelity: args.fidelity,
-        rate_hz: args.rate,
-        preview_px: args.preview.px(Some(preview::SIZE)),
-        ..Request::default()
-    };
+    let wanted = Wanted::of(&args.output, args.reporting);
+    let request = request(args.fidelity, args.rate, &args.preview);
     let job = Job::open(wanted, &source.inputs(), console)?;
-    job.run(&source, &request, &Tools::default())?;
-    Ok(())
+    job.run(&source, &request, &Tools::default())
 }
 
 pub(crate) fn effects(args: &ImportEffects, kind: Kind, console: Console) -> Result<(), Failures> {
@@ -52,21 +41,13 @@ pub(crate) fn effects(args: &ImportEffects, kind: Kind, console: Console) -> Res
             mu: args.mu.into(),
         },
     };
-    let wanted = Wanted {
-        json: args.reporting.json,
-        timings: args.reporting.timings,
-        ..Wanted::of(&args.output)
-    };
+    let wanted = Wanted::of(&args.output, args.reporting);
     let request = Request {
         name: args.name.clone(),
-        fidelity: args.fidelity,
-        rate_hz: args.rate,
-        preview_px: args.preview.px(Some(preview::SIZE)),
-        ..Request::default()
+        ..request(args.fidelity, args.rate, &args.preview)
     };
     let job = Job::open(wanted, &source.inputs(), console)?;
-    job.run(&source, &request, &Tools::default())?;
-    Ok(())
+    job.run(&source, &request, &Tools::default())
 }
 
 pub(crate) fn recording(args: &ImportRecording, console: Console) -> Result<(), Failures> {
@@ -80,28 +61,14 @@ pub(crate) fn recording(args: &ImportRecording, console: Console) -> Result<(), 
         emit_model: args.emit_model.as_deref(),
         plot: args.plot.as_deref(),
         report: args.report.as_deref(),
-        json: args.reporting.json,
-        timings: args.reporting.timings,
-        ..Wanted::of(&args.output)
+        ..Wanted::of(&args.output, args.reporting)
     };
-    let request = Request {
-        fidelity: args.fidelity,
-        rate_hz: args.rate,
-        preview_px: args.preview.px(Some(preview::SIZE)),
-        ..Request::default()
-    };
+    let request = request(args.fidelity, args.rate, &args.preview);
     let job = Job::open(wanted, &inputs, console)?;
     let model = inference::completer(args.model.as_deref())?;
     let tools = Tools {
         model: Some(&model),
         ..Tools::default()
     };
-    let compiled = job.run(&source, &request, &tools)?;
-    if let (true, Some(found)) = (args.reporting.timings, compiled.found::<Recorded>()) {
-        for step in &found.analysis.steps {
-            let ms = 1e3 * step.took.as_secs_f64();
-            console.aside(&format!("  {:<16} {ms:>10.3} ms", step.name));
-        }
-    }
-    Ok(())
+    job.run(&source, &request, &tools)
 }

@@ -1,6 +1,6 @@
 //! `asperity import hatt`.
 
-use super::{inference, outputs::TextureOutputs, timings};
+use super::{inference, timings};
 use crate::cli::ImportHatt;
 use asperity::{
     driver::{self, Compiled},
@@ -10,22 +10,28 @@ use asperity::{
     sources::{
         Tools,
         hatt::{self, Hatt},
+        model_file,
     },
 };
 use asperity_console::Console;
 use asperity_io::{
     clock::now,
     diagnostic::{Failures, Fault, one},
-    output::{self, FileNames, Outputs},
+    output::{self, FileNames, OutputId, Outputs},
     shown::counted,
 };
 use std::{fmt::Write as _, path::PathBuf};
 
 /// Where the assets go: what is one file is open, so that a bad path costs no work.
 enum Target {
-    File(TextureOutputs),
+    File {
+        outputs: Outputs,
+        /// The library, or else the asset.
+        file: OutputId,
+        is_library: bool,
+        model: Option<OutputId>,
+    },
     Folder(PathBuf),
-    Library(Outputs, output::OutputId),
 }
 
 impl Target {
@@ -56,21 +62,20 @@ impl Target {
             return Err(one(Fault::new(what, remedy).at(output).usage()));
         }
         if is_folder {
-            Ok(Self::Folder(output.clone()))
-        } else if is_library {
-            let mut outputs = Outputs::beside(inputs);
-            let library = outputs.open(output).map_err(one)?;
-            Ok(Self::Library(outputs, library))
-        } else {
-            let model = args.emit_model.as_deref();
-            Ok(Self::File(TextureOutputs::open(inputs, output, model)?))
+            return Ok(Self::Folder(output.clone()));
         }
+        let mut outputs = Outputs::beside(inputs);
+        Ok(Self::File {
+            file: outputs.open(output).map_err(one)?,
+            is_library,
+            model: outputs.open_if(args.emit_model.as_deref()).map_err(one)?,
+            outputs,
+        })
     }
 
     fn console(&self, console: Console) -> Console {
         match self {
-            Self::File(outputs) => outputs.console(console),
-            Self::Library(outputs, _) => console.beside(outputs),
+            Self::File { outputs, .. } => console.beside(outputs),
             Self::Folder(_) => console,
         }
     }
@@ -95,22 +100,30 @@ impl Target {
                 let write = || output::write_folder_beside(inputs, &folder, &files);
                 pipeline.run(Pass::Write, write).map_err(one)
             }
-            Self::Library(mut outputs, id) => {
-                let bytes = pipeline.run(Pass::Pack, || packed(imported))?;
+            Self::File {
+                mut outputs,
+                file,
+                is_library,
+                model,
+            } => {
+                let packed;
+                let bytes = match imported {
+                    // A single source file gives a single asset.
+                    [material] if !is_library => &material.lowered.bytes,
+                    _ => {
+                        packed = pipeline.run(Pass::Pack, || self::packed(imported))?;
+                        &packed
+                    }
+                };
                 let write = || {
-                    outputs.fill(id, &bytes)?;
+                    outputs.fill(file, bytes)?;
+                    if let (Some(file), [material]) = (model, imported) {
+                        outputs.fill(file, &model_file::to_json(&material.whole))?;
+                    }
                     outputs.commit()
                 };
                 pipeline.run(Pass::Write, write).map_err(one)
             }
-            // A single source file gives a single asset.
-            Self::File(mut outputs) => match imported.first() {
-                Some(material) => {
-                    outputs.model(&material.whole);
-                    outputs.write(&material.lowered.bytes, pipeline)
-                }
-                None => Ok(()),
-            },
         }
     }
 }

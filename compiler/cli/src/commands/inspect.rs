@@ -1,5 +1,6 @@
 //! `asperity inspect`.
 
+use super::input::Chosen;
 use crate::cli::Inspect;
 use asperity::{
     emit::{raise::attributes, textures::Textures},
@@ -21,15 +22,15 @@ pub(crate) fn run(args: &Inspect, console: Console) -> Result<(), Failures> {
         Some(names) if args.texture.is_none() => {
             whole_library(args, &mut textures, &names, console)
         }
-        _ => one_texture(args, &mut textures, console),
+        _ => one_texture(args, textures, console),
     }
 }
 
-fn one_texture(args: &Inspect, textures: &mut Textures, console: Console) -> Result<(), Failures> {
-    let wanted = args.texture.as_deref();
-    let name = textures.chosen_name(wanted).map_err(one)?;
-    let bytes = textures.choose(wanted).map_err(one)?;
-    let asset = Asset::parse(&bytes).map_err(|e| one(textures.error(wanted, e.into())))?;
+fn one_texture(args: &Inspect, textures: Textures, console: Console) -> Result<(), Failures> {
+    let name = textures.chosen_name(args.texture.as_deref());
+    let name = name.map_err(one)?;
+    let chosen = Chosen::of(textures, args.texture.clone())?;
+    let asset = chosen.asset()?;
     let document = match name {
         Some(name) => Document::named(&asset, name),
         None => Document::of(&asset),

@@ -1,12 +1,9 @@
 //! `asperity listen`.
 
+use super::input::Chosen;
 use crate::cli::Listen;
-use asperity::{
-    emit::textures::Textures,
-    views::listen::{self, Gesture, Heard, Part, SOUND_HZ},
-};
+use asperity::views::listen::{self, Gesture, Heard, Part, SOUND_HZ};
 use asperity_console::Console;
-use asperity_formats::Asset;
 use asperity_io::{
     diagnostic::{Failures, one},
     output::{Outputs, display},
@@ -19,10 +16,8 @@ pub(crate) fn run(args: &Listen, console: Console) -> Result<(), Failures> {
     let mut outputs = Outputs::beside([&args.file]);
     let sound = outputs.open(&args.output).map_err(one)?;
     let console = console.beside(&outputs);
-    let mut textures = Textures::open(&args.file).map_err(one)?;
-    let wanted = args.texture.as_deref();
-    let bytes = textures.choose(wanted).map_err(one)?;
-    let asset = Asset::parse(&bytes).map_err(|e| one(textures.error(wanted, e.into())))?;
+    let chosen = Chosen::open(&args.file, args.texture.clone())?;
+    let asset = chosen.asset()?;
     let session = Gesture::asked(args.speed, args.force, args.taps);
     let heard = listen::listen(&asset, &session, args.rate, args.seed).map_err(one)?;
     outputs.fill(sound, &heard.wav).map_err(one)?;

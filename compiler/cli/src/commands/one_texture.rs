@@ -1,24 +1,38 @@
 //! Shared steps of all commands that compile a single texture: open the outputs, compile, write, report.
 
-use super::{outputs::TextureOutputs, timings};
+use super::timings;
+use crate::cli::{PreviewOptions, ReportOptions};
 use asperity::{
     driver::{self, Compiled},
     emit::verify::VerifyError,
-    pipeline::{Clock, Pipeline, Request},
-    sources::{Source, Tools},
-    views::plot,
+    passes::reduce::Fidelity,
+    pipeline::{Clock, Pass, Pipeline, Request},
+    sources::{Source, Tools, model_file},
+    views::{plot, preview::SIZE},
 };
 use asperity_console::Console;
 use asperity_formats::Asset;
 use asperity_io::{
     clock::now,
-    diagnostic::{Diagnostic, Failures, alone, one},
-    output::OutputId,
+    diagnostic::{Failures, Fault, alone, one},
+    output::{OutputId, Outputs},
 };
-use asperity_plot::PlotError;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use thiserror::Error;
+
+/// The request of a command with these options; without a preview option, a preview of the usual size is drawn.
+pub(super) fn request(
+    fidelity: Fidelity,
+    rate_hz: Option<f64>,
+    preview: &PreviewOptions,
+) -> Request {
+    Request {
+        fidelity,
+        rate_hz,
+        preview_px: preview.px(Some(SIZE)),
+        ..Request::default()
+    }
+}
 
 /// Requested outputs of a texture.
 pub(super) struct Wanted<'a> {
@@ -30,41 +44,29 @@ pub(super) struct Wanted<'a> {
     pub(super) plot: Option<&'a Path>,
     /// The report, as JSON.
     pub(super) report: Option<&'a Path>,
-    /// True if the report is printed as JSON.
-    pub(super) json: bool,
-    /// True if the time of every pass is printed.
-    pub(super) timings: bool,
+    /// What is printed.
+    pub(super) reporting: ReportOptions,
 }
 
 impl<'a> Wanted<'a> {
-    /// The asset and a report for people.
-    pub(super) fn of(output: &'a Path) -> Self {
+    /// The asset alone.
+    pub(super) fn of(output: &'a Path, reporting: ReportOptions) -> Self {
         Self {
             output,
             emit_model: None,
             plot: None,
             report: None,
-            json: false,
-            timings: false,
+            reporting,
         }
-    }
-}
-
-/// The sheet could not be drawn.
-#[derive(Debug, Error)]
-#[error("the sheet cannot be drawn: {0}")]
-struct NoSheet(PlotError);
-
-impl Diagnostic for NoSheet {
-    fn remedy(&self) -> String {
-        "leave --plot out".into()
     }
 }
 
 /// The outputs of a command, open.
 pub(super) struct Job<'a> {
     wanted: Wanted<'a>,
-    outputs: TextureOutputs,
+    outputs: Outputs,
+    asset: OutputId,
+    model: Option<OutputId>,
     plot: Option<OutputId>,
     report: Option<OutputId>,
     /// Where the command talks.
@@ -78,11 +80,13 @@ impl<'a> Job<'a> {
         inputs: &[PathBuf],
         console: Console,
     ) -> Result<Self, Failures> {
-        let mut outputs = TextureOutputs::open(inputs, wanted.output, wanted.emit_model)?;
+        let mut outputs = Outputs::beside(inputs);
         Ok(Self {
-            plot: outputs.open_if(wanted.plot)?,
-            report: outputs.open_if(wanted.report)?,
-            console: outputs.console(console),
+            asset: outputs.open(wanted.output).map_err(one)?,
+            model: outputs.open_if(wanted.emit_model).map_err(one)?,
+            plot: outputs.open_if(wanted.plot).map_err(one)?,
+            report: outputs.open_if(wanted.report).map_err(one)?,
+            console: console.beside(&outputs),
             outputs,
             wanted,
         })
@@ -94,11 +98,10 @@ impl<'a> Job<'a> {
         source: &dyn Source,
         request: &Request,
         tools: &Tools<'_>,
-    ) -> Result<Compiled, Failures> {
+    ) -> Result<(), Failures> {
         let compiled = self.compile(source, request, tools)?;
         let text = format!("{}\n", compiled.text());
-        self.finish(&compiled, compiled.json(), &text, "")?;
-        Ok(compiled)
+        self.finish(&compiled, compiled.json(), &text, "")
     }
 
     /// Compiles. On a terminal it is shown that the command works.
@@ -125,35 +128,54 @@ impl<'a> Job<'a> {
         report: &str,
         asked: &str,
     ) -> Result<(), Failures> {
+        let mut beside = Vec::new();
         if let Some(file) = self.plot {
-            let sheet = match compiled.sheet().map_err(|error| one(NoSheet(error)))? {
+            let sheet = compiled.sheet().map_err(|error| {
+                let what = format!("the sheet cannot be drawn: {error}");
+                one(Fault::new(what, "leave --plot out"))
+            })?;
+            let sheet = match sheet {
                 Some(sheet) => sheet,
                 None => {
                     let asset = Asset::parse(&compiled.lowered.bytes);
                     plot::of_asset(&asset.map_err(|e| one(VerifyError::from(e)))?).map_err(one)?
                 }
             };
-            self.outputs.beside(file, sheet);
+            beside.push((file, sheet));
         }
         if let Some(file) = self.report {
             let mut text = format!("{json:#}").into_bytes();
             text.push(b'\n');
-            self.outputs.beside(file, text);
+            beside.push((file, text));
         }
-        self.outputs.model(&compiled.whole);
+        if let Some(file) = self.model {
+            beside.push((file, model_file::to_json(&compiled.whole)));
+        }
         let mut pipeline = Pipeline::timed(Clock(now));
         pipeline.merge(&compiled.timings);
-        self.outputs.write(&compiled.lowered.bytes, &mut pipeline)?;
+        pipeline
+            .run(Pass::Write, || {
+                self.outputs.fill(self.asset, &compiled.lowered.bytes)?;
+                for (file, bytes) in &beside {
+                    self.outputs.fill(*file, bytes)?;
+                }
+                self.outputs.commit()
+            })
+            .map_err(one)?;
         let console = self.console;
-        console.warnings(&compiled.warnings, self.wanted.json);
-        let printed = if self.wanted.json {
+        let ReportOptions {
+            json: as_json,
+            timings,
+        } = self.wanted.reporting;
+        console.warnings(&compiled.warnings, as_json);
+        let printed = if as_json {
             json["stages_ms"] = pipeline.timings().json();
             console.json(&json)
         } else {
             console.report(report).and_then(|()| console.text(asked))
         };
         printed.map_err(one)?;
-        timings::print(self.wanted.timings, &pipeline, console);
+        timings::print(timings, &pipeline, console);
         Ok(())
     }
 }

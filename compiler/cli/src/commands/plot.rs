@@ -1,9 +1,9 @@
 //! `asperity plot`.
 
+use super::input::Chosen;
 use crate::cli::Plot;
-use asperity::{emit::textures::Textures, views::plot};
+use asperity::views::plot;
 use asperity_console::Console;
-use asperity_formats::Asset;
 use asperity_io::{
     diagnostic::{Failures, one},
     output::{Outputs, display},
@@ -15,10 +15,8 @@ pub(crate) fn run(args: &Plot, console: Console) -> Result<(), Failures> {
     let mut outputs = Outputs::beside([&args.file]);
     let picture = outputs.open(&args.output).map_err(one)?;
     let console = console.beside(&outputs);
-    let mut textures = Textures::open(&args.file).map_err(one)?;
-    let bytes = textures.choose(args.texture.as_deref()).map_err(one)?;
-    let asset =
-        Asset::parse(&bytes).map_err(|e| one(textures.error(args.texture.as_deref(), e.into())))?;
+    let chosen = Chosen::open(&args.file, args.texture.clone())?;
+    let asset = chosen.asset()?;
     let png = plot::of_asset(&asset).map_err(one)?;
     outputs.fill(picture, &png).map_err(one)?;
     outputs.commit().map_err(one)?;

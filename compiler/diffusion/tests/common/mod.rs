@@ -39,14 +39,9 @@ pub(crate) fn opened(
 }
 
 /// A picture of cork.
-pub(crate) fn cork() -> Request<'static> {
+pub(crate) fn cork() -> Request {
     Request {
-        prompt: "cork",
-        negative: "",
         steps: 7,
-        guidance: 7.5,
-        method: asperity_diffusion::Method::Ddim,
-        seed: 1,
-        tile: false,
+        ..Request::new("cork".into(), 1)
     }
 }

@@ -1,6 +1,7 @@
 //! Tolerance for hand-written JSON that strict readers refuse: a comma after the last entry of a list or an object, and
 //! integers with a fraction of zeros.
 
+use crate::shown::shortened;
 use std::{borrow::Cow, ops::Range};
 
 /// The text with spaces for each comma that only a closing bracket follows, and for `.0` behind a whole number: all
@@ -74,13 +75,10 @@ pub fn json_fault(text: &str, error: &serde_json::Error) -> String {
         .lines()
         .nth(error.line().saturating_sub(1))
         .unwrap_or_default();
-    let mut at = error.column().saturating_sub(1).min(line.len());
-    while !line.is_char_boundary(at) {
-        at -= 1;
-    }
+    let begun = shortened(line, error.column().saturating_sub(1));
     // The reader stops within a word.
     let is_word = |c: char| c.is_alphanumeric() || matches!(c, '-' | '+' | '_' | '#' | '.');
-    let start = line[..at].trim_end_matches(is_word).len();
+    let start = begun.trim_end_matches(is_word).len();
     let rest = &line[start..];
     let word = rest.trim_start_matches(['-', '+']);
     let sign = rest.len() - word.len();

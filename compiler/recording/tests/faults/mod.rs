@@ -1,6 +1,8 @@
 //! Recordings with one fault each, of every kind in `docs/recording-faults.md`, and clean ones in the
 //! dialects of that page.
 
+mod damage;
+mod hand;
 mod kinds;
 mod take;
 

@@ -1,7 +1,7 @@
 //! The check of one row by itself. It goes on after a fault, so that all faults are reported at once.
 
 use super::{
-    entry::{Options, Place},
+    entry::{Options, Origin, Place},
     missing::{is_error, is_nothing},
     row::{Field, Row, Value},
     values::{Checker, OPTIONS, Stated, of_type},
@@ -10,16 +10,15 @@ use crate::{
     name,
     passes::reduce::Fidelity,
     pipeline::Request,
-    sources::{self, Kind, ManifestSource, Operand, Registry},
+    sources::{self, Kind, Operand, Registry, prompt::title},
     views::preview,
 };
-use asperity_formats::limits::MAX_NAME_BYTES;
 use asperity_io::{
     diagnostic::Fault,
     input::{InputError, InputProblem},
     shown::suggestion,
 };
-use std::{borrow::Cow, fs, io, path::PathBuf, sync::Arc};
+use std::{borrow::Cow, fs, io, path::PathBuf};
 
 /// Keys of what a texture is made of, where those are other textures.
 const OTHERS: [&str; 3] = ["of", "blend", "compose"];
@@ -51,31 +50,12 @@ fn is_origin(key: &str, registry: &Registry) -> bool {
 /// A row whose references to other textures are names yet.
 pub(super) struct Draft {
     pub(super) name: String,
-    pub(super) origin: DraftOrigin,
+    pub(super) origin: Origin<Reference>,
     pub(super) options: Options,
     pub(super) place: Place,
 }
 
-/// A source whose references are names, with the lines where they stand.
-pub(super) enum DraftOrigin {
-    Source {
-        key: &'static str,
-        source: Arc<dyn ManifestSource>,
-    },
-    Of(Reference),
-    Blend {
-        a: Reference,
-        b: Reference,
-        t: f64,
-    },
-    Compose {
-        tap: Reference,
-        slide: Reference,
-        friction: Reference,
-    },
-}
-
-/// A texture by name.
+/// A texture by name, with the line where it stands.
 #[derive(Clone)]
 pub(super) struct Reference {
     pub(super) name: String,
@@ -178,12 +158,12 @@ impl Checker<'_> {
     fn name(
         &mut self,
         field: Option<&Field>,
-        origin: Option<&DraftOrigin>,
+        origin: Option<&Origin<Reference>>,
         line: usize,
     ) -> Option<String> {
         let (name, line) = match (field, origin) {
             (Some(field), _) => (self.text(field, "name")?.to_owned(), field.line),
-            (None, Some(DraftOrigin::Source { source, .. })) => {
+            (None, Some(Origin::Source { source, .. })) => {
                 (source.prompt().map_or_else(String::new, title), line)
             }
             (None, Some(_)) => (String::new(), line),
@@ -245,7 +225,7 @@ impl Checker<'_> {
         field: &Field,
         row: &Row,
         seed: Option<u64>,
-    ) -> Option<DraftOrigin> {
+    ) -> Option<Origin<Reference>> {
         let key = kind.key;
         let text = self.text(field, key)?;
         if kind.operand == Operand::Text && is_nothing(text) {
@@ -257,7 +237,7 @@ impl Checker<'_> {
         }
         let path = match kind.operand {
             Operand::Text => PathBuf::new(),
-            Operand::Folder => self.folder(field, key)?,
+            Operand::Folder => self.path(field, key, text, true)?,
             // Nothing is asked about a path that the manifest may not name.
             Operand::File if !self.reaches(field, key, text, false) => return None,
             Operand::File => match text.rsplit_once('#') {
@@ -268,9 +248,9 @@ impl Checker<'_> {
                         && !self.folder.join(text).exists() =>
                 {
                     texture = Some(of);
-                    self.path(field, key, file)?
+                    self.path(field, key, file, false)?
                 }
-                _ => self.path(field, key, text)?,
+                _ => self.path(field, key, text, false)?,
             },
         };
         let stated = sources::Stated {
@@ -282,7 +262,7 @@ impl Checker<'_> {
                 .unwrap_or(0),
         };
         match (kind.open)(&stated) {
-            Ok(source) => Some(DraftOrigin::Source { key, source }),
+            Ok(source) => Some(Origin::Source { key, source }),
             Err(failure) => {
                 let fault = Fault::new(&failure, failure.remedy());
                 self.fault(field.line, key, fault);
@@ -291,12 +271,12 @@ impl Checker<'_> {
         }
     }
 
-    fn origin(&mut self, field: &Field, row: &Row, seed: Option<u64>) -> Option<DraftOrigin> {
+    fn origin(&mut self, field: &Field, row: &Row, seed: Option<u64>) -> Option<Origin<Reference>> {
         if let Some(kind) = self.registry.get(&field.key) {
             return self.source(*kind, field, row, seed);
         }
         match field.key.as_str() {
-            "of" => Some(DraftOrigin::Of(Reference {
+            "of" => Some(Origin::Of(Reference {
                 name: self.text(field, "of")?.to_owned(),
                 key: "of",
                 line: field.line,
@@ -309,7 +289,7 @@ impl Checker<'_> {
                     Some(t) => self.number(t, "blend.t", (0.0, 1.0), row.untyped),
                     None => Some(0.5),
                 };
-                Some(DraftOrigin::Blend {
+                Some(Origin::Blend {
                     a: a?,
                     b: b?,
                     t: t?,
@@ -324,7 +304,7 @@ impl Checker<'_> {
                     // What is slid on decides how slippery it is.
                     false => slide.clone(),
                 };
-                Some(DraftOrigin::Compose {
+                Some(Origin::Compose {
                     tap: tap?,
                     slide: slide?,
                     friction: friction?,
@@ -363,70 +343,49 @@ impl Checker<'_> {
     /// A file that is there; paths are relative to the manifest.
     pub(super) fn file(&mut self, field: &Field, key: &str) -> Option<PathBuf> {
         let stated = self.text(field, key)?;
-        self.path(field, key, stated)
+        self.path(field, key, stated, false)
     }
 
-    fn path(&mut self, field: &Field, key: &str, stated: &str) -> Option<PathBuf> {
-        if !self.reaches(field, key, stated, false) {
+    fn path(&mut self, field: &Field, key: &str, stated: &str, folder: bool) -> Option<PathBuf> {
+        if !self.reaches(field, key, stated, folder) {
             return None;
         }
         let file = self.folder.join(stated);
         let problem = match fs::metadata(&file) {
+            Ok(found) if folder && found.is_dir() => return Some(file),
+            Ok(_) if folder => return self.wrong_type(field.line, key, "a folder", &field.value),
             Ok(found) if found.is_file() => return Some(file),
             Ok(found) if found.is_dir() => InputProblem::Folder,
             // A pipe gives its bytes once, and a key needs them before.
             Ok(_) => InputProblem::Device,
             Err(error) => unreadable(error),
         };
-        self.unreadable(field.line, key, InputError { file, problem })
-    }
-
-    /// A folder that is there, likewise.
-    fn folder(&mut self, field: &Field, key: &str) -> Option<PathBuf> {
-        let stated = self.text(field, key)?;
-        if !self.reaches(field, key, stated, true) {
-            return None;
-        }
-        let file = self.folder.join(stated);
-        let problem = match fs::metadata(&file) {
-            Ok(found) if found.is_dir() => return Some(file),
-            Ok(_) => return self.wrong_type(field.line, key, "a folder", &field.value),
-            Err(error) => unreadable(error),
-        };
-        self.unreadable(field.line, key, InputError { file, problem })
-    }
-
-    fn unreadable<T>(&mut self, line: usize, key: &str, error: InputError) -> Option<T> {
-        self.fault(line, key, Fault::of(&error));
+        let fault = Fault::of(&InputError { file, problem });
+        self.fault(field.line, key, fault);
         None
     }
 
     /// The key of a source, and how a texture of it may be made.
-    fn goes_with(&self, origin: &DraftOrigin) -> GoesWith {
-        let mixed = |key| GoesWith {
-            key,
-            refuses: &["texture", "seed"],
-            fidelity: Fidelity::Auto,
-            preview: true,
-        };
-        match origin {
-            DraftOrigin::Source { key, .. } => match self.registry.get(key) {
-                Some(kind) => GoesWith {
-                    key,
-                    refuses: kind.refuses,
-                    fidelity: kind.fidelity,
-                    preview: kind.preview,
-                },
-                None => mixed(key),
+    fn goes_with(&self, origin: &Origin<Reference>) -> GoesWith {
+        let key = origin.key();
+        match self.registry.get(key) {
+            Some(kind) => GoesWith {
+                key,
+                refuses: kind.refuses,
+                fidelity: kind.fidelity,
+                preview: kind.preview,
             },
-            DraftOrigin::Of(_) => mixed("of"),
-            DraftOrigin::Blend { .. } => mixed("blend"),
-            DraftOrigin::Compose { .. } => mixed("compose"),
+            None => GoesWith {
+                key,
+                refuses: &["texture", "seed"],
+                fidelity: Fidelity::Auto,
+                preview: true,
+            },
         }
     }
 
     /// Refuses keys of a row that its source does not take.
-    fn placed(&mut self, row: &Row, origin: &DraftOrigin) {
+    fn placed(&mut self, row: &Row, origin: &Origin<Reference>) {
         let GoesWith { key, refuses, .. } = self.goes_with(origin);
         for field in &row.fields {
             if refuses.contains(&field.key.as_str()) {
@@ -475,16 +434,4 @@ fn options(stated: &Stated, of: &GoesWith) -> Options {
             .filter(|_| takes("edit"))
             .unwrap_or_default(),
     }
-}
-
-/// Returns the beginning of a prompt as a name.
-fn title(prompt: &str) -> String {
-    let plain = prompt.replace(char::is_control, " ");
-    let words: Vec<&str> = plain.split_whitespace().collect();
-    let words = words.join(" ");
-    let mut end = words.len().min(MAX_NAME_BYTES);
-    while !words.is_char_boundary(end) {
-        end -= 1;
-    }
-    words[..end].trim_end().to_owned()
 }

@@ -51,9 +51,9 @@ impl Entry {
     }
 }
 
-/// Origin of a texture. Textures of the manifest are referred to by index.
+/// Origin of a texture. Textures of a checked manifest are referred to by index.
 #[derive(Debug, Clone)]
-pub enum Origin {
+pub enum Origin<R = usize> {
     /// A source of its own.
     Source {
         /// The key that names it.
@@ -62,28 +62,28 @@ pub enum Origin {
         source: Arc<dyn ManifestSource>,
     },
     /// Another texture, to be edited.
-    Of(usize),
+    Of(R),
     /// Between two other textures.
     Blend {
         /// At t = 0.
-        a: usize,
+        a: R,
         /// At t = 1.
-        b: usize,
+        b: R,
         /// Where between them, 0..=1.
         t: f64,
     },
     /// Parts of other textures.
     Compose {
         /// Source of the tap response.
-        tap: usize,
+        tap: R,
         /// Source of the sliding vibration.
-        slide: usize,
+        slide: R,
         /// Where friction comes from.
-        friction: usize,
+        friction: R,
     },
 }
 
-impl Origin {
+impl<R> Origin<R> {
     /// The key that a manifest states it under.
     #[must_use]
     pub fn key(&self) -> &'static str {
@@ -104,6 +104,32 @@ impl Origin {
         }
     }
 
+    /// The same with other references; `None` if one is not found. All are looked for.
+    pub(super) fn try_map<S>(self, mut find: impl FnMut(R) -> Option<S>) -> Option<Origin<S>> {
+        Some(match self {
+            Self::Source { key, source } => Origin::Source { key, source },
+            Self::Of(of) => Origin::Of(find(of)?),
+            Self::Blend { a, b, t } => {
+                let (a, b) = (find(a), find(b));
+                Origin::Blend { a: a?, b: b?, t }
+            }
+            Self::Compose {
+                tap,
+                slide,
+                friction,
+            } => {
+                let (tap, slide, friction) = (find(tap), find(slide), find(friction));
+                Origin::Compose {
+                    tap: tap?,
+                    slide: slide?,
+                    friction: friction?,
+                }
+            }
+        })
+    }
+}
+
+impl Origin {
     /// The other textures that it is made of.
     #[must_use]
     pub fn parts(&self) -> Vec<usize> {

@@ -1,10 +1,11 @@
 //! Reading a manifest with all that it includes.
 
 use super::{
-    check::{Draft, DraftOrigin, Reference},
+    check::{Draft, Reference},
     csv_file,
     entry::{Entry, Origin, Place},
-    graph, json_file,
+    graph::order,
+    json_file,
     row::{Field, MAX_FAULTS, MAX_ROWS, Sheet, Value},
     toml_file,
     values::{Checker, Stated, of_type, unknown_key},
@@ -398,7 +399,7 @@ impl Reader {
             }
         }
         if self.errors.is_empty()
-            && let Some(cycle) = graph::cycle(&entries)
+            && let Err(cycle) = order(&entries)
         {
             let names: Vec<String> = cycle
                 .iter()
@@ -433,12 +434,15 @@ impl Reader {
     /// be one of theirs and is not called missing.
     fn resolved(
         &mut self,
-        origin: DraftOrigin,
+        origin: Origin<Reference>,
         place: &Place,
         index: &HashMap<String, usize>,
         complete: bool,
     ) -> Option<Origin> {
-        let mut find = |reference: Reference| {
+        if let Origin::Source { source, .. } = &origin {
+            self.sources.extend(source.inputs());
+        }
+        origin.try_map(|reference| {
             let found = index.get(&reference.name).copied();
             if found.is_none() && complete {
                 let names = index.keys().map(String::as_str);
@@ -449,29 +453,6 @@ impl Reader {
                     .push(place.fault(reference.line, reference.key, fault));
             }
             found
-        };
-        Some(match origin {
-            DraftOrigin::Source { key, source } => {
-                self.sources.extend(source.inputs());
-                Origin::Source { key, source }
-            }
-            DraftOrigin::Of(of) => Origin::Of(find(of)?),
-            DraftOrigin::Blend { a, b, t } => {
-                let (a, b) = (find(a), find(b));
-                Origin::Blend { a: a?, b: b?, t }
-            }
-            DraftOrigin::Compose {
-                tap,
-                slide,
-                friction,
-            } => {
-                let (tap, slide, friction) = (find(tap), find(slide), find(friction));
-                Origin::Compose {
-                    tap: tap?,
-                    slide: slide?,
-                    friction: friction?,
-                }
-            }
         })
     }
 }

@@ -16,6 +16,7 @@ use asperity_formats::limits::MAX_NAME_BYTES;
 use asperity_io::{
     diagnostic::{Failure, Fault},
     input::{self, Format, InputProblem},
+    shown::shortened,
 };
 use asperity_texture::model::{
     Friction, ModelGrid, Numerator, Provenance, TapBank, TapTrace, TextureModel, defaults,
@@ -38,38 +39,32 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// All kinds, each with its format and its name.
+    const ALL: [(Self, Format, &'static str); 3] = [
+        (Self::Haptic, Format::Haptic, "haptic"),
+        (Self::Ahap, Format::Ahap, "ahap"),
+        (Self::Hjif, Format::Hjif, "hjif"),
+    ];
+
     /// The kind that the content of a file says.
     #[must_use]
-    pub fn of_format(format: Format) -> Option<Self> {
-        let all = [Self::Haptic, Self::Ahap, Self::Hjif];
-        all.into_iter().find(|kind| kind.format() == format)
+    pub fn of_format(found: Format) -> Option<Self> {
+        let mut all = Self::ALL.into_iter();
+        all.find_map(|(kind, format, _)| (format == found).then_some(kind))
     }
 
     /// The kind that the end of a file's name says.
     #[must_use]
     pub fn of_name(file: &Path) -> Option<Self> {
         let extension = file.extension()?;
-        let all = [Self::Haptic, Self::Ahap, Self::Hjif];
-        all.into_iter()
-            .find(|kind| extension.eq_ignore_ascii_case(kind.name()))
-    }
-
-    const fn format(self) -> Format {
-        match self {
-            Self::Haptic => Format::Haptic,
-            Self::Ahap => Format::Ahap,
-            Self::Hjif => Format::Hjif,
-        }
+        let mut all = Self::ALL.into_iter();
+        all.find_map(|(kind, _, name)| extension.eq_ignore_ascii_case(name).then_some(kind))
     }
 
     /// Its name on the command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Haptic => "haptic",
-            Self::Ahap => "ahap",
-            Self::Hjif => "hjif",
-        }
+        Self::ALL[self as usize].2
     }
 }
 
@@ -190,7 +185,7 @@ impl Effects {
         let bytes = tools
             .file(&self.file, input::Kind::Effects)
             .map_err(refused)?;
-        let wanted = self.kind.format();
+        let (_, wanted, _) = Kind::ALL[self.kind as usize];
         if let Some(format) = Format::of(&bytes).filter(|format| *format != wanted) {
             let wanted = wanted.name().into();
             return Err(refused(InputProblem::OtherFormat { format, wanted }));
@@ -213,11 +208,7 @@ fn stem(file: &Path) -> String {
         .chars()
         .map(|c| if c.is_control() { '_' } else { c })
         .collect();
-    let mut end = plain.len().min(MAX_NAME_BYTES);
-    while !plain.is_char_boundary(end) {
-        end -= 1;
-    }
-    plain[..end].to_owned()
+    shortened(&plain, MAX_NAME_BYTES).to_owned()
 }
 
 /// The texture of a track; `None` for one that does not sound.

@@ -184,7 +184,7 @@ impl LatentEditor<'_> {
                     self.seen(&slide, &axes, cache)
                 };
                 let (start, gradients) = (&latents.slide, axes.map(gradient));
-                edited.slide = reach(start, &gradients, &self.metric, &[rough, sharp], seen)?.z;
+                edited.slide = reach(start, &gradients, &self.metric, &[rough, sharp], seen)?;
             }
         }
         if asked(Axis::Hard)
@@ -198,7 +198,7 @@ impl LatentEditor<'_> {
                 self.seen(&tap, &[Axis::Hard], cache)
             };
             let gradients = [gradient(Axis::Hard)];
-            edited.tap = reach(&latents.tap, &gradients, &self.metric, &[hard], seen)?.z;
+            edited.tap = reach(&latents.tap, &gradients, &self.metric, &[hard], seen)?;
         }
         if asked(Axis::Slippery)
             && let Some(slippery) = target(Axis::Slippery)

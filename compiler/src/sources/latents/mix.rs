@@ -13,7 +13,10 @@ use crate::{
     views::preview,
 };
 use asperity_formats::{Asset, limits::MAX_NAME_BYTES};
-use asperity_io::{diagnostic::Fault, shown::rounded};
+use asperity_io::{
+    diagnostic::Fault,
+    shown::{rounded, shortened},
+};
 use asperity_texture::model::{
     Provenance,
     attributes::{self, Attributes},
@@ -90,11 +93,7 @@ impl MixOptions {
     /// The name that a user gave, or else this one, shortened to what an asset can hold.
     fn name(&self, otherwise: &str) -> String {
         let name = self.name.as_deref().unwrap_or(otherwise);
-        let mut end = name.len().min(MAX_NAME_BYTES);
-        while !name.is_char_boundary(end) {
-            end -= 1;
-        }
-        name[..end].trim_end().to_owned()
+        shortened(name, MAX_NAME_BYTES).trim_end().to_owned()
     }
 
     /// As the texture was compiled that is kept, with a preview unless it is unwanted.

@@ -56,11 +56,6 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Where a search ended.
-pub(super) struct Found {
-    pub(super) z: Latent,
-}
-
 /// Moves a latent until `look` says `target`, or as near to it as the search comes. `gradients`
 /// are those of what `look` says, one for each number.
 pub(super) fn reach<E>(
@@ -69,11 +64,11 @@ pub(super) fn reach<E>(
     metric: &Metric,
     target: &[f64],
     mut look: impl FnMut(&Latent) -> Result<Option<Vec<f64>>, E>,
-) -> Result<Found, E> {
+) -> Result<Latent, E> {
     let mut jacobian: Vec<Vec<f64>> = gradients.iter().map(|g| g.to_vec()).collect();
     let mut best = *start;
     let Some(mut seen) = look(start)? else {
-        return Ok(Found { z: best });
+        return Ok(best);
     };
     // C⁻¹ of the way from the start.
     let mut way = vec![0.0; LATENT];
@@ -119,7 +114,7 @@ pub(super) fn reach<E>(
             radius = 0.5 * short * length;
         }
     }
-    Ok(Found { z: best })
+    Ok(best)
 }
 
 /// (J C Jᵀ)⁻¹·missing, for one or two attributes.
@@ -226,12 +221,12 @@ mod tests {
             look,
         );
         let Ok(found) = found else { panic!("it looks") };
-        let seen = look(&found.z).unwrap().unwrap();
+        let seen = look(&found).unwrap().unwrap();
         assert!(
             (seen[0] - 20.0).abs() < 0.1 && seen[1].abs() < 0.1,
             "{seen:?}"
         );
-        assert!(found.z[2..].iter().all(|x| *x == 0.0));
+        assert!(found[2..].iter().all(|x| *x == 0.0));
     }
 
     #[test]

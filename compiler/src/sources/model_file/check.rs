@@ -1,13 +1,12 @@
 //! A document as a model: every value in its range, every list of its length, in its order.
 
-use super::schema::{Document, Friction, Grid, Taps, Vertex};
+use super::schema::{Document, Grid};
 use crate::name;
 use asperity_formats::limits;
 use asperity_io::diagnostic::Fault;
-use asperity_texture::model::triangulate;
 use asperity_texture::model::{
-    self, FrictionLaw, Gains, GridVertex, ModelGrid, Numerator, TapBank, TapTrace, TextureModel,
-    Wall, defaults, mesh, tap_synthesis,
+    self, Friction, FrictionLaw, Gains, GridVertex, ModelGrid, Numerator, TapBank, TextureModel,
+    Wall, defaults, mesh, tap_synthesis, triangulate,
 };
 use std::f64::consts::PI;
 
@@ -102,12 +101,10 @@ fn grid(stated: Grid) -> Result<ModelGrid, Fault> {
             limits::MAX_ORDER,
         )?;
     }
-    let vertices = stated
-        .vertices
-        .into_iter()
-        .enumerate()
-        .map(|(index, vertex)| self::vertex(index, vertex, numerator, (order, ma_order)))
-        .collect::<Result<Vec<_>, _>>()?;
+    for (index, vertex) in stated.vertices.iter().enumerate() {
+        self::vertex(index, vertex, numerator, (order, ma_order))?;
+    }
+    let vertices = stated.vertices;
     let (field, remedy) = match stated.triangles {
         Some(_) => (
             "grid.triangles",
@@ -144,10 +141,10 @@ fn grid(stated: Grid) -> Result<ModelGrid, Fault> {
 
 fn vertex(
     index: usize,
-    stated: Vertex,
+    stated: &GridVertex,
     numerator: Numerator,
     (order, ma_order): (usize, usize),
-) -> Result<GridVertex, Fault> {
+) -> Result<(), Fault> {
     let field = |name: &str| format!("grid.vertices[{index}].{name}");
     let up_to = |name: &str, value, high: f32| in_range(&field(name), value, (0.0, high));
     up_to("speed_mm_s", stated.speed_mm_s, limits::MAX_SPEED_MM_S)?;
@@ -158,31 +155,18 @@ fn vertex(
         let remedy = "set \"numerator\" to \"none\", \"nyquist\" or \"lsf\" as the models have it";
         Err(Fault::new(what, remedy).field(field(name)))
     };
-    match (numerator, &stated.ma_lsf_rad, stated.gain) {
-        (Numerator::Lsf, None, _) => {
-            return fault("ma_lsf_rad", "is absent, but grid.numerator is \"lsf\"");
-        }
-        (Numerator::Lsf, Some(zeros), gain) => {
+    match (numerator, &stated.ma_lsf_rad) {
+        (Numerator::Lsf, None) => fault("ma_lsf_rad", "is absent, but grid.numerator is \"lsf\""),
+        (Numerator::Lsf, Some(zeros)) => {
             frequencies(&field("ma_lsf_rad"), zeros, ma_order)?;
-            up_to("gain", gain.unwrap_or(1.0), limits::MAX_GAIN)?;
+            up_to("gain", stated.gain, limits::MAX_GAIN)
         }
-        (_, Some(_), _) => {
-            return fault("ma_lsf_rad", "is given, but grid.numerator is not \"lsf\"");
+        (_, Some(_)) => fault("ma_lsf_rad", "is given, but grid.numerator is not \"lsf\""),
+        (_, None) if stated.gain != 1.0 => {
+            fault("gain", "is not 1, but grid.numerator is not \"lsf\"")
         }
-        (_, None, Some(gain)) if gain != 1.0 => {
-            return fault("gain", "is not 1, but grid.numerator is not \"lsf\"");
-        }
-        _ => {}
+        _ => Ok(()),
     }
-    Ok(GridVertex {
-        speed_mm_s: stated.speed_mm_s,
-        force_n: stated.force_n,
-        kind: stated.kind,
-        lsf_rad: stated.lsf_rad,
-        ma_lsf_rad: stated.ma_lsf_rad,
-        gain: stated.gain.unwrap_or(1.0),
-        sigma_m_s2: stated.sigma_m_s2,
-    })
 }
 
 /// Every vertex has a place of its own: of two at one place, one model would be lost.
@@ -219,7 +203,7 @@ fn frequencies(field: &str, lsf_rad: &[f64], order: usize) -> Result<(), Fault> 
     ascending(lsf_rad.iter().copied(), |index| format!("{field}[{index}]"))
 }
 
-fn taps(stated: Option<Taps>) -> Result<TapBank, Fault> {
+fn taps(stated: Option<TapBank>) -> Result<TapBank, Fault> {
     let Some(stated) = stated else {
         return Ok(TapBank {
             // An asset without taps states a rate all the same.
@@ -248,20 +232,10 @@ fn taps(stated: Option<Taps>) -> Result<TapBank, Fault> {
     }
     let speeds = stated.traces.iter().map(|trace| trace.speed_m_s);
     ascending(speeds, |index| format!("taps.traces[{index}].speed_m_s"))?;
-    Ok(TapBank {
-        sample_rate_hz: stated.sample_rate_hz,
-        traces: stated
-            .traces
-            .into_iter()
-            .map(|trace| TapTrace {
-                speed_m_s: trace.speed_m_s,
-                accel_m_s2: trace.accel_m_s2,
-            })
-            .collect(),
-    })
+    Ok(stated)
 }
 
-fn friction(stated: Friction) -> Result<model::Friction, Fault> {
+fn friction(stated: Friction) -> Result<Friction, Fault> {
     in_range("friction.mu", stated.mu, (0.0, limits::MAX_MU))?;
     length(
         "friction.anchors",
@@ -278,11 +252,7 @@ fn friction(stated: Friction) -> Result<model::Friction, Fault> {
     if let Some(law) = &stated.law {
         self::law(law, stated.mu)?;
     }
-    Ok(model::Friction {
-        mu: stated.mu,
-        anchors: stated.anchors,
-        law: stated.law,
-    })
+    Ok(stated)
 }
 
 fn law(law: &FrictionLaw, mu: f64) -> Result<(), Fault> {

@@ -2,9 +2,9 @@
 
 use super::{
     layout::Shallow,
-    schema::{Document, FORMAT, Friction, Grid, Provenance, Taps, Trace, VERSION, Vertex},
+    schema::{Document, FORMAT, Grid, Provenance, VERSION},
 };
-use asperity_texture::model::{Numerator, TextureModel};
+use asperity_texture::model::TextureModel;
 use serde::Serialize as _;
 
 /// The file of a model: JSON with one vertex, triangle and trace a line. Every number reads back
@@ -21,7 +21,6 @@ pub fn to_json(texture: &TextureModel) -> Vec<u8> {
 
 fn document(texture: &TextureModel) -> Document {
     let grid = &texture.grid;
-    let has_numerator = grid.numerator == Numerator::Lsf;
     let provenance = &texture.provenance;
     Document {
         format: FORMAT.into(),
@@ -30,38 +29,11 @@ fn document(texture: &TextureModel) -> Document {
         grid: Grid {
             sample_rate_hz: grid.sample_rate_hz,
             numerator: grid.numerator,
-            vertices: grid
-                .vertices
-                .iter()
-                .map(|vertex| Vertex {
-                    speed_mm_s: vertex.speed_mm_s,
-                    force_n: vertex.force_n,
-                    kind: vertex.kind,
-                    sigma_m_s2: vertex.sigma_m_s2,
-                    gain: has_numerator.then_some(vertex.gain),
-                    lsf_rad: vertex.lsf_rad.clone(),
-                    ma_lsf_rad: vertex.ma_lsf_rad.clone().filter(|_| has_numerator),
-                })
-                .collect(),
+            vertices: grid.vertices.clone(),
             triangles: Some(grid.triangles.clone()),
         },
-        taps: Some(Taps {
-            sample_rate_hz: texture.taps.sample_rate_hz,
-            traces: texture
-                .taps
-                .traces
-                .iter()
-                .map(|trace| Trace {
-                    speed_m_s: trace.speed_m_s,
-                    accel_m_s2: trace.accel_m_s2.clone(),
-                })
-                .collect(),
-        }),
-        friction: Friction {
-            mu: texture.friction.mu,
-            anchors: texture.friction.anchors.clone(),
-            law: texture.friction.law.clone(),
-        },
+        taps: Some(texture.taps.clone()),
+        friction: texture.friction.clone(),
         wall: Some(texture.wall),
         gains: Some(texture.gains),
         provenance: Provenance {

@@ -1,10 +1,9 @@
 //! The format: what a file holds, key by key.
 //!
-//! These types are apart from those of the model so that the model can change while files of
-//! this version stay readable. Units are in the keys: m, s, N, rad, Hz, m/s², and mm/s for the
-//! speeds of the grid.
+//! Vertices, taps, friction, wall and gains are those of the model. Units are in the keys: m, s, N, rad, Hz, m/s², and
+//! mm/s for the speeds of the grid.
 
-use asperity_texture::model::{FrictionAnchor, FrictionLaw, Gains, Numerator, VertexKind, Wall};
+use asperity_texture::model::{Friction, Gains, GridVertex, Numerator, TapBank, Wall};
 use serde::{Deserialize, Serialize};
 
 /// Value of `format`.
@@ -21,7 +20,7 @@ pub(super) struct Document {
     pub(super) name: String,
     pub(super) grid: Grid,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) taps: Option<Taps>,
+    pub(super) taps: Option<TapBank>,
     pub(super) friction: Friction,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) wall: Option<Wall>,
@@ -37,55 +36,10 @@ pub(super) struct Document {
 pub(super) struct Grid {
     pub(super) sample_rate_hz: f64,
     pub(super) numerator: Numerator,
-    pub(super) vertices: Vec<Vertex>,
+    pub(super) vertices: Vec<GridVertex>,
     /// Triangulated by Delaunay if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) triangles: Option<Vec<[usize; 3]>>,
-}
-
-/// Vertex model: power spectrum (gain·σ)²·|B|²/|A|².
-#[derive(Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Vertex {
-    pub(super) speed_mm_s: f64,
-    pub(super) force_n: f64,
-    pub(super) kind: VertexKind,
-    pub(super) sigma_m_s2: f64,
-    /// For the numerator `lsf` only.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) gain: Option<f64>,
-    pub(super) lsf_rad: Vec<f64>,
-    /// For the numerator `lsf` only.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) ma_lsf_rad: Option<Vec<f64>>,
-}
-
-/// The tap bank.
-#[derive(Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Taps {
-    pub(super) sample_rate_hz: f64,
-    pub(super) traces: Vec<Trace>,
-}
-
-/// The transient of one impact.
-#[derive(Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Trace {
-    pub(super) speed_m_s: f64,
-    pub(super) accel_m_s2: Vec<f64>,
-}
-
-/// Friction.
-#[derive(Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Friction {
-    pub(super) mu: f64,
-    #[serde(default)]
-    pub(super) anchors: Vec<FrictionAnchor>,
-    /// Friction that depends on speed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) law: Option<FrictionLaw>,
 }
 
 /// Where the texture comes from. Fidelity and quantisation error are not the model's: they

@@ -11,7 +11,7 @@ use super::{
 use crate::{
     edit_memory::{History, Latents, Memory},
     learned::{
-        Certainty, Decoded, Files, Latent, LearnedModel, embedded,
+        Certainty, Decoded, Latent, LearnedModel, embedded,
         files::wrong_width,
         friction::Neighbour,
         inference::Backend,
@@ -22,14 +22,14 @@ use crate::{
     sources::SourceOutput,
 };
 use asperity_formats::limits;
-use asperity_io::diagnostic::Fault;
+use asperity_io::{diagnostic::Fault, shown::shortened};
 use asperity_texture::model::{
     Provenance, TextureModel,
     shift::{Scales, adjust},
 };
 use rand_core::{Rng as _, SeedableRng as _};
 use rand_xoshiro::Xoshiro256PlusPlus;
-use std::{path::Path, sync::Arc};
+use std::sync::Arc;
 
 /// Bytes of a prompt that the provenance keeps.
 const KEPT_PROMPT_BYTES: usize = 2048;
@@ -80,18 +80,6 @@ impl PromptCompiler {
             together: matches!(backend, Backend::Portable),
             ..Self::new(Box::new(text), model)?
         })
-    }
-
-    /// A compiler of prompts, from a model folder.
-    ///
-    /// # Errors
-    /// As [`PromptCompiler::new`], and [`Fault`] for a folder that is none.
-    pub fn with_folder(
-        text: Box<dyn TextEncoder>,
-        folder: &Path,
-        backend: &Backend,
-    ) -> Result<Self, Fault> {
-        Self::new(text, LearnedModel::load(Files::read(folder)?, backend)?)
     }
 
     /// The learned model.
@@ -234,7 +222,7 @@ impl PromptCompiler {
         seed: u64,
     ) -> (TextureModel, Vec<Neighbour>) {
         let provenance = Provenance {
-            prompt: Some(shortened(prompt, KEPT_PROMPT_BYTES).to_owned()),
+            prompt: Some(shortened(prompt, KEPT_PROMPT_BYTES).trim_end().to_owned()),
             seed,
             ..self.model.provenance("compile")
         };
@@ -282,19 +270,13 @@ pub struct Projection {
 // Texts of a length that an asset can hold.
 
 /// A name that an asset can hold: the beginning of the prompt, without control characters.
-fn title(prompt: &str) -> String {
+pub(crate) fn title(prompt: &str) -> String {
     let plain = prompt.replace(char::is_control, " ");
     let words: Vec<&str> = plain.split_whitespace().collect();
-    shortened(&words.join(" "), limits::MAX_NAME_BYTES).to_owned()
-}
-
-/// The longest beginning of whole characters within a number of bytes.
-fn shortened(text: &str, bytes: usize) -> &str {
-    let mut end = text.len().min(bytes);
-    while !text.is_char_boundary(end) {
-        end -= 1;
-    }
-    text[..end].trim_end()
+    let words = words.join(" ");
+    shortened(&words, limits::MAX_NAME_BYTES)
+        .trim_end()
+        .to_owned()
 }
 
 // Another piece of the same material.
@@ -329,6 +311,5 @@ mod tests {
         assert_eq!(title(" wet\u{0}ice\n"), "wet ice");
         let long = title(&"ä".repeat(40));
         assert_eq!(long, "ä".repeat(32));
-        assert_eq!(shortened("a é", 3), "a");
     }
 }

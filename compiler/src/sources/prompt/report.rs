@@ -75,7 +75,7 @@ impl CompiledPrompt {
         if !self.reading.ignored.is_empty() {
             lines.add("left out", excerpt(self.reading.ignored.join(", ")));
         }
-        lines.add("feels like", self.materials(NAMED));
+        lines.add("feels like", self.materials());
         let attributes = compiled.attributes();
         for axis in [Axis::Rough, Axis::Slippery, Axis::Hard] {
             let place = scale.place(axis, &attributes);
@@ -102,10 +102,10 @@ impl CompiledPrompt {
     }
 
     /// The nearest materials with their weights; what rounds to nothing says nothing.
-    fn materials(&self, most: usize) -> String {
+    fn materials(&self) -> String {
         let nearest = self.nearest.iter().filter(|near| near.weight >= 0.005);
         let nearest: Vec<String> = nearest
-            .take(most)
+            .take(NAMED)
             .map(|near| format!("{} {:.0} %", near.name, 100.0 * near.weight))
             .collect();
         nearest.join(", ")
@@ -135,72 +135,6 @@ impl Lines {
 }
 
 impl Findings for CompiledPrompt {
-    /// The report behind [`CompiledPrompt::summary`]: attributes in their units, and what the passes did.
-    fn text(&self, compiled: &Compiled) -> String {
-        let mut lines = Lines::default();
-        lines.add("nearest", self.materials(usize::MAX));
-        let a = compiled.attributes();
-        let number = |value: Option<f64>, unit: &str| {
-            value.map_or("none".into(), |value| format!("{value:.1} {unit}"))
-        };
-        lines.add(
-            "attributes",
-            format!(
-                "rough {}, sharp {}, hard {}, μ {:.3}",
-                number(a.rough_db, "dB"),
-                number(a.sharp_hz, "Hz"),
-                number(a.hard_hz, "Hz"),
-                a.mu
-            ),
-        );
-        let texture = &compiled.texture;
-        lines.add(
-            "gains",
-            format!(
-                "vibration {:.5} s²/m × {:.2} N, effective mass {:.3} kg, wall {:.0} N/m",
-                texture.gains.vib_s2_m,
-                texture.gains.f_max_n,
-                texture.gains.effective_mass_kg,
-                texture.wall.stiffness_n_m
-            ),
-        );
-        lines.add(
-            "model",
-            format!(
-                "AR order {}, {} vertices, sampled at {:.0} Hz",
-                texture.grid.order,
-                texture.grid.vertices.len(),
-                texture.grid.sample_rate_hz
-            ),
-        );
-        lines.add("kept", compiled.reduction.to_string());
-        let preview = compiled.preview.as_ref().map_or(0, Vec::len);
-        lines.add(
-            "bytes",
-            format!(
-                "{} haptic, {preview} preview, {} in total",
-                compiled.lowered.haptic_bytes,
-                compiled.lowered.bytes.len()
-            ),
-        );
-        if let Some(verified) = &compiled.verified {
-            lines.add(
-                "verified",
-                format!(
-                    "stable at all {} queries; peak force {:.2} N over {} ticks",
-                    verified.queries, verified.peak_force_n, verified.ticks
-                ),
-            );
-        }
-        let passes: Vec<String> = compiled
-            .timings
-            .iter()
-            .map(|(pass, took)| format!("{} {:.1}", pass.name(), 1e3 * took.as_secs_f64()))
-            .collect();
-        lines.add("ms", passes.join(", "));
-        lines.0
-    }
-
     fn json(&self, compiled: &Compiled) -> Value {
         let nearest: Vec<Value> = self
             .nearest

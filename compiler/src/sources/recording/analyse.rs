@@ -1,6 +1,6 @@
 //! From a folder to what its sensors say of a surface.
 
-use crate::pipeline::Clock;
+use crate::pipeline::{Pass, Pipeline};
 use asperity_io::{diagnostic::Fault, shown::counted};
 use asperity_recording::{
     check::{self, Checked},
@@ -13,19 +13,10 @@ use asperity_recording::{
     segments::{self, Segments},
     timeline::Timeline,
 };
-use std::{path::Path, time::Duration};
+use std::path::Path;
 
 /// Least time of strokes, s, and stretches.
 const LEAST_STROKES: (f64, usize) = (3.0, 8);
-
-/// A step and the time that it took.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Step {
-    /// Its name.
-    pub name: &'static str,
-    /// Its time.
-    pub took: Duration,
-}
 
 /// Analysis of the sensor data.
 #[derive(Debug)]
@@ -50,21 +41,6 @@ pub struct Analysis {
     pub speed_source: SpeedSource,
     /// Transients by speed.
     pub transients: Vec<Transient>,
-    /// The steps, in order.
-    pub steps: Vec<Step>,
-}
-
-struct Steps {
-    clock: Clock,
-    steps: Vec<Step>,
-}
-
-impl Steps {
-    fn run<T>(&mut self, name: &'static str, work: impl FnOnce() -> T) -> T {
-        let (result, took) = self.clock.time(work);
-        self.steps.push(Step { name, took });
-        result
-    }
 }
 
 /// Reads and checks a recording.
@@ -77,17 +53,13 @@ pub fn check(folder: &Path) -> Result<(Recording, Checked, Timeline), Fault> {
     Ok((recording, checked, timeline))
 }
 
-/// Takes a recording through all steps, timed by a clock. With `force`, faults do not stop it.
+/// Takes a recording through all steps, each a pass of `pipeline`. With `force`, faults do not stop it.
 ///
 /// # Errors
 /// [`Fault`] for a recording that cannot be read, is faulty, or too short.
-pub fn analyse(folder: &Path, force: bool, clock: Clock) -> Result<Analysis, Fault> {
-    let mut steps = Steps {
-        clock,
-        steps: Vec::new(),
-    };
-    let mut recording = steps.run("read", || reader::load(folder))?;
-    let (checked, mut timeline) = steps.run("check and align", || check::check(&recording))?;
+pub fn analyse(folder: &Path, force: bool, pipeline: &mut Pipeline) -> Result<Analysis, Fault> {
+    let mut recording = pipeline.run(Pass::Read, || reader::load(folder))?;
+    let (checked, mut timeline) = pipeline.run(Pass::Check, || check::check(&recording))?;
     let faults: Vec<_> = checked.stopping().collect();
     if let (Some(first), false) = (faults.first(), force) {
         let count = counted(faults.len(), "fault", "faults");
@@ -106,12 +78,12 @@ pub fn analyse(folder: &Path, force: bool, clock: Clock) -> Result<Analysis, Fau
         .iter()
         .find(|c| c.quantity == Quantity::Acceleration)
         .map_or(0.0, |c| checked.late_of(&c.file));
-    let free_air = steps.run("resonance", || {
+    let free_air = pipeline.run(Pass::Resonance, || {
         let free_air = resonance::find(&recording, &timeline, late_s);
         resonance::compensate(&mut recording, &mut timeline, late_s, &free_air);
         free_air
     });
-    let strokes = steps.run("segments", || {
+    let strokes = pipeline.run(Pass::Segments, || {
         segments::segments(&timeline, &segments::vibration(&timeline))
     });
     let (least_s, least) = LEAST_STROKES;
@@ -127,11 +99,11 @@ pub fn analyse(folder: &Path, force: bool, clock: Clock) -> Result<Analysis, Fau
     if strokes.covered_s() < least_s || strokes.segments.len() < least {
         return Err(too_few());
     }
-    let fit = steps
-        .run("grid", || grid::fit(&strokes))
+    let fit = pipeline
+        .run(Pass::Grid, || grid::fit(&strokes))
         .ok_or_else(too_few)?;
-    let friction = steps.run("friction", || friction::friction(&timeline));
-    let (impacts, transients) = steps.run("taps", || {
+    let friction = pipeline.run(Pass::Friction, || friction::friction(&timeline));
+    let (impacts, transients) = pipeline.run(Pass::Taps, || {
         let impacts = impact::impacts(&recording, &timeline, late_s);
         let transients = impact::transients(&impacts);
         (impacts, transients)
@@ -147,6 +119,5 @@ pub fn analyse(folder: &Path, force: bool, clock: Clock) -> Result<Analysis, Fau
         friction,
         impacts,
         transients,
-        steps: steps.steps,
     })
 }

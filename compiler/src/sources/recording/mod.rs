@@ -13,7 +13,7 @@ mod sheet;
 mod source;
 mod texture;
 
-pub use analyse::{Analysis, Step, analyse, check};
+pub use analyse::{Analysis, analyse, check};
 pub use complete::{Completed, Nearest, complete};
 pub use sheet::{HEIGHT_PX, WIDTH_PX};
 pub use source::{KIND, Recorded, RecordingFolder};

@@ -1,7 +1,7 @@
 //! The report of an import, for machines and for people.
 
 use super::{Analysis, Recorded};
-use crate::compiled::Compiled;
+use crate::{compiled::Compiled, pipeline::Pass};
 use asperity_io::shown::counted;
 use asperity_recording::{
     friction::{Friction, Law},
@@ -31,10 +31,11 @@ pub(super) fn json(recorded: &Recorded, compiled: &Compiled) -> Value {
         .extrapolated()
         .map(|v| json!({ "speed_mm_s": v.speed_mm_s, "force_n": v.force_n }))
         .collect();
-    let steps: Vec<Value> = analysis
-        .steps
+    let steps: Vec<Value> = compiled
+        .timings
         .iter()
-        .map(|step| json!({ "step": step.name, "ms": 1e3 * step.took.as_secs_f64() }))
+        .take_while(|(pass, _)| *pass != Pass::Complete)
+        .map(|(pass, took)| json!({ "step": pass.name(), "ms": 1e3 * took.as_secs_f64() }))
         .collect();
     json!({
         "name": compiled.texture.name,

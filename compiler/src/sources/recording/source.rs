@@ -68,9 +68,7 @@ impl Source for RecordingFolder {
         pipeline: &mut Pipeline,
     ) -> Result<SourceOutput, Failure> {
         let model = tools.model()?;
-        let analysis = pipeline.run(Pass::Read, || {
-            analyse(&self.folder, self.force, tools.clock)
-        })?;
+        let analysis = analyse(&self.folder, self.force, pipeline)?;
         let completed = pipeline.run(Pass::Complete, || {
             complete(model, &analysis.fit.grid, &defaults::gains())
         })?;

@@ -75,25 +75,25 @@ impl Gesture {
     /// Returns the requested gesture: a stroke of this speed or force, taps alone, or the default.
     #[must_use]
     pub fn asked(speed_mm_s: Option<f32>, force_n: Option<f32>, taps: bool) -> Self {
-        if speed_mm_s.is_none() && force_n.is_none() {
-            let strokes = if taps {
-                Vec::new()
-            } else {
-                Self::usual().strokes
-            };
-            return Self {
-                strokes,
-                taps: true,
-            };
-        }
-        let stroke = Stroke {
+        let stated = speed_mm_s.is_some() || force_n.is_some();
+        let stroke = stated.then(|| Stroke {
             speed_mm_s: speed_mm_s.unwrap_or(SPEEDS_MM_S[1]),
             force_n: force_n.unwrap_or(1.0),
             time_s: STROKE_S.1,
+        });
+        Self::chosen(stroke, taps, Self::usual().strokes)
+    }
+
+    /// Returns the stated stroke, with taps if they are wanted, taps alone, or the usual strokes and taps.
+    pub(crate) fn chosen(stated: Option<Stroke>, taps: bool, usual: Vec<Stroke>) -> Self {
+        let strokes = match stated {
+            Some(stroke) => vec![stroke],
+            None if taps => Vec::new(),
+            None => usual,
         };
         Self {
-            strokes: vec![stroke],
-            taps,
+            strokes,
+            taps: taps || stated.is_none(),
         }
     }
 }

@@ -10,9 +10,6 @@
 //!
 //! let bank = tap_synthesis::bank(200.0, &defaults::gains());
 //! assert_eq!(bank.traces.len(), tap_synthesis::SPEEDS);
-//! let softest = &bank.traces[0];
-//! let impulse_m_s = tap_synthesis::impulse_m_s(&softest.accel_m_s2, bank.sample_rate_hz);
-//! assert!((impulse_m_s / (tap_synthesis::IMPULSE_PER_SPEED * softest.speed_m_s) - 1.0).abs() < 1e-9);
 //! ```
 
 pub use crate::signal::impact::{SAMPLE_RATE_HZ, SAMPLES, SPEED_STEP_M_S, SPEEDS};
@@ -80,12 +77,6 @@ pub fn bank(freq_hz: f64, gains: &Gains) -> TapBank {
     }
 }
 
-/// ∫a dt of a trace, m/s.
-#[must_use]
-pub fn impulse_m_s(accel_m_s2: &[f64], sample_rate_hz: f64) -> f64 {
-    accel_m_s2.iter().sum::<f64>() / sample_rate_hz
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -103,7 +94,7 @@ mod tests {
         for freq_hz in [80.0, 150.0, 350.0] {
             for trace in bank(freq_hz, &gains()).traces {
                 let expected = IMPULSE_PER_SPEED * trace.speed_m_s;
-                let found = impulse_m_s(&trace.accel_m_s2, SAMPLE_RATE_HZ);
+                let found = trace.accel_m_s2.iter().sum::<f64>() / SAMPLE_RATE_HZ;
                 assert!((found / expected - 1.0).abs() < 1e-12);
             }
         }

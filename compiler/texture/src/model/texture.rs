@@ -2,7 +2,7 @@
 
 use super::FrictionLaw;
 use crate::signal::{lsf, spectrum::ArmaModel};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// A texture before quantisation, as every source makes it.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,7 +63,8 @@ pub enum VertexKind {
 }
 
 /// A vertex: power spectrum `(gain·σ)²·|B|²/|A|²`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct GridVertex {
     /// Tangential speed, mm/s, ≥ 0.
     pub speed_mm_s: f64,
@@ -71,19 +72,40 @@ pub struct GridVertex {
     pub force_n: f64,
     /// Interior or edge.
     pub kind: VertexKind,
+    /// Standard deviation of the excitation before numerator and gain, m/s².
+    pub sigma_m_s2: f64,
+    /// Gain of the numerator; 1 unless [`Numerator::Lsf`].
+    #[serde(
+        default = "one",
+        deserialize_with = "or_one",
+        skip_serializing_if = "is_one"
+    )]
+    pub gain: f64,
     /// Line spectral frequencies of A(z), rad, strictly ascending in (0, π); the
     /// first belongs to the sum polynomial.
     pub lsf_rad: Vec<f64>,
     /// Line spectral frequencies of B(z), only with [`Numerator::Lsf`].
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub ma_lsf_rad: Option<Vec<f64>>,
-    /// Gain of the numerator; 1 unless [`Numerator::Lsf`].
-    pub gain: f64,
-    /// Standard deviation of the excitation before numerator and gain, m/s².
-    pub sigma_m_s2: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn or_one<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Option::deserialize(deserializer).map(|gain| gain.unwrap_or(1.0))
+}
+
+// serde hands the field over by reference.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
+fn is_one(gain: &f64) -> bool {
+    *gain == 1.0
 }
 
 /// Tapping transients, with one trace for every impact speed.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct TapBank {
     /// Sample rate of every trace, Hz.
     pub sample_rate_hz: f64,
@@ -92,7 +114,8 @@ pub struct TapBank {
 }
 
 /// The acceleration transient of one impact.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct TapTrace {
     /// Impact speed, m/s, > 0.
     pub speed_m_s: f64,
@@ -101,13 +124,16 @@ pub struct TapTrace {
 }
 
 /// Coulomb friction, or friction that depends on speed.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Friction {
     /// Coefficient of kinetic friction, ≥ 0; with a law, the base that its factors multiply.
     pub mu: f64,
     /// Anchors from which μ was interpolated.
+    #[serde(default)]
     pub anchors: Vec<FrictionAnchor>,
     /// Law of μ against speed, if any.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub law: Option<FrictionLaw>,
 }
 

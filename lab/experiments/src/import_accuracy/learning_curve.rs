@@ -1,6 +1,6 @@
 //! A learning curve: how well textures come back after so many seconds.
 
-use asperity::{model::TextureModel, pipeline::Clock, sources::recording};
+use asperity::{model::TextureModel, pipeline::Pipeline, sources::recording};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -51,7 +51,7 @@ pub fn learn(
             let mut sensors = Sensors::seeded(seed);
             alter(&mut sensors);
             record(&performance, texture, &sensors, seed, folder.path())?;
-            let analysis = recording::analyse(folder.path(), false, Clock::default());
+            let analysis = recording::analyse(folder.path(), false, &mut Pipeline::default());
             done();
             Ok(match analysis {
                 Ok(analysis) => Row {

@@ -1,9 +1,8 @@
 //! `asperity extract`.
 
-use crate::cli::Extract;
-use asperity::emit::{lower::LowerError, sections::renamed, textures::Textures};
+use crate::{cli::Extract, commands::input::Chosen};
+use asperity::emit::{lower::LowerError, sections::renamed};
 use asperity_console::Console;
-use asperity_formats::Asset;
 use asperity_io::{
     diagnostic::{Failures, one},
     output::{Outputs, display},
@@ -14,17 +13,16 @@ pub(crate) fn run(args: &Extract, console: Console) -> Result<(), Failures> {
     let mut outputs = Outputs::beside([&args.file]);
     let output = outputs.open(&args.output).map_err(one)?;
     let console = console.beside(&outputs);
-    let mut textures = Textures::open(&args.file).map_err(one)?;
-    let wanted = Some(args.texture.as_str());
-    let name = textures.chosen_name(wanted).map_err(one)?;
-    let bytes = textures.choose(wanted).map_err(one)?;
-    let asset = Asset::parse(&bytes).map_err(|e| one(textures.error(wanted, e.into())))?;
+    let chosen = Chosen::open(&args.file, Some(args.texture.clone()))?;
+    let asset = chosen.asset()?;
+    let name = chosen.textures.chosen_name(Some(&args.texture));
+    let name = name.map_err(one)?;
     // The name in the index counts.
     let name = name.as_deref().unwrap_or(asset.name());
     let extracted = if name == asset.name() {
-        bytes.clone()
+        chosen.bytes.clone()
     } else {
-        renamed(&bytes, name).map_err(|e| one(LowerError::from(e)))?
+        renamed(&chosen.bytes, name).map_err(|e| one(LowerError::from(e)))?
     };
     outputs.fill(output, &extracted).map_err(one)?;
     outputs.commit().map_err(one)?;

@@ -1,7 +1,7 @@
 //! `asperity blend`.
 
-use super::{input::Input, output::Mixing};
-use crate::cli::Blend;
+use super::output::Mixing;
+use crate::{cli::Blend, commands::input::Input};
 use asperity::sources::latents::LatentEditor;
 use asperity_console::Console;
 use asperity_io::diagnostic::{Failures, one};

@@ -1,7 +1,7 @@
 //! `asperity compose`.
 
-use super::{input::Input, output::Mixing};
-use crate::cli::Compose;
+use super::output::Mixing;
+use crate::{cli::Compose, commands::input::Input};
 use asperity::sources::latents::LatentEditor;
 use asperity_console::Console;
 use asperity_io::diagnostic::{Failures, one};

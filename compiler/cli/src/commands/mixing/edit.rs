@@ -1,7 +1,7 @@
 //! `asperity edit`.
 
-use super::{input::Input, output::Mixing};
-use crate::cli::Edit as Arguments;
+use super::output::Mixing;
+use crate::{cli::Edit as Arguments, commands::input::Input};
 use asperity::sources::latents::{Edit, LatentEditor, Sliders, nothing_asked};
 use asperity_console::Console;
 use asperity_io::diagnostic::{Failures, one};

@@ -1,7 +1,7 @@
 //! `asperity encode`.
 
-use super::{input::Input, output::Mixing};
-use crate::cli::Encode;
+use super::output::Mixing;
+use crate::{cli::Encode, commands::input::Input};
 use asperity::sources::latents::LatentEditor;
 use asperity_console::Console;
 use asperity_io::diagnostic::{Failures, one};

@@ -4,5 +4,4 @@ pub(super) mod blend;
 pub(super) mod compose;
 pub(super) mod edit;
 pub(super) mod encode;
-mod input;
 mod output;

@@ -1,9 +1,11 @@
 //! Writing and reporting a mixed texture.
 
-use super::input::Input;
 use crate::{
     cli::Mixed,
-    commands::one_texture::{Job, Wanted},
+    commands::{
+        input::Input,
+        one_texture::{Job, Wanted},
+    },
 };
 use asperity::sources::{
     Tools,
@@ -26,13 +28,9 @@ impl<'a> Mixing<'a> {
         inputs: &[&Input],
         console: Console,
     ) -> Result<Self, Failures> {
-        let mut files: Vec<_> = inputs.iter().map(|input| input.path()).collect();
+        let mut files: Vec<_> = inputs.iter().map(|input| input.file.clone()).collect();
         files.extend(args.inference.setup().files());
-        let wanted = Wanted {
-            json: args.reporting.json,
-            timings: args.reporting.timings,
-            ..Wanted::of(&args.output)
-        };
+        let wanted = Wanted::of(&args.output, args.reporting);
         let job = Job::open(wanted, &files, console)?;
         Ok(Self { args, job })
     }

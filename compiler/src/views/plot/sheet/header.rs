@@ -1,5 +1,6 @@
 //! The header: name, structure, sizes and provenance.
 
+use asperity_io::shown::counted;
 use asperity_plot::{Align, Canvas, Rect, Stroke, TextStyle, VAlign, ink, size};
 use asperity_texture::model::{Numerator, TextureModel, VertexKind};
 
@@ -76,14 +77,14 @@ fn structure(model: &TextureModel, bytes: Option<AssetBytes>) -> String {
         format!(
             "{interior} interior + {} edge vertices, {}",
             grid.vertices.len() - interior,
-            counted(grid.triangles.len(), "triangle")
+            counted(grid.triangles.len(), "triangle", "triangles")
         ),
     ];
     parts.push(match model.taps.traces.first() {
         Some(trace) => format!(
             "{} of {} at {}",
-            counted(model.taps.traces.len(), "tap"),
-            counted(trace.accel_m_s2.len(), "sample"),
+            counted(model.taps.traces.len(), "tap", "taps"),
+            counted(trace.accel_m_s2.len(), "sample", "samples"),
             rate(model.taps.sample_rate_hz)
         ),
         None => "no taps".to_owned(),
@@ -134,10 +135,6 @@ fn remarks(model: &TextureModel) -> String {
         .split_whitespace()
         .collect::<Vec<_>>()
         .join(" ")
-}
-
-fn counted(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
 fn rate(sample_rate_hz: f64) -> String {
