@@ -192,6 +192,19 @@ mod tests {
     }
 
     #[test]
+    fn a_fault_shows_what_is_known_of_its_place() {
+        let fault = || Fault::new("no such key", "remove it");
+        assert_eq!(fault().to_string(), "no such key");
+        assert_eq!(fault().line(3).to_string(), "no such key");
+        assert_eq!(fault().field("a.b").to_string(), "a.b: no such key");
+        let placed = fault().at("x.toml").line(3).field("a.b").usage();
+        assert_eq!(placed.to_string(), "x.toml:3: a.b: no such key");
+        assert!(placed.is_usage() && !fault().is_usage());
+        let suggested = fault().suggest(Some("did you mean \"c\"?".into()));
+        assert_eq!(suggested.remedy(), "did you mean \"c\"? remove it");
+    }
+
+    #[test]
     fn what_an_error_repeats_is_escaped_and_shortened() {
         let escapes = report(&Echo("\u{1b}[31mred\u{9b}0m\u{202e}".into()));
         assert!(
