@@ -11,7 +11,7 @@ use asperity::{
 /// it decodes them, evenly over its list.
 ///
 /// # Errors
-/// [`ImportAccuracyError::Model`] if the embedded model cannot be loaded or does not decode a material.
+/// [`ImportAccuracyError::Import`] if the embedded model cannot be loaded or does not decode a material.
 pub fn materials(count: usize) -> Result<Vec<TextureModel>, ImportAccuracyError> {
     let model = LearnedModel::load(embedded::model(), &Backend::Portable)?;
     let anchors = &model.description().anchors;
