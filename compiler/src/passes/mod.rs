@@ -1,4 +1,4 @@
-//! From one texture model to another: rate, stability, size.
+//! From one texture model to another: rate, stability, size, ceiling.
 
 pub mod ceiling;
 pub mod reduce;

@@ -1,4 +1,5 @@
-//! Sources of a texture: words, recordings, effects of other tools, a model of your own, a formula.
+//! Sources of a texture: words, recordings, HaTT's materials, effects of other tools, a model of your own, an asset,
+//! latents, a formula.
 //!
 //! A source is a type that implements [`Source`], in a file or a folder of its own. It reads its input and models the
 //! texture; the [driver](crate::driver) does what all of them have in common. A line in the [`Registry`] lets manifests
