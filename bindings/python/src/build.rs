@@ -15,7 +15,11 @@ use asperity::{
     scene::{self, Budget, Description, Target},
     sources::Registry,
 };
-use asperity_io::{clock::now, diagnostic::Failures, output::Outputs};
+use asperity_io::{
+    clock::now,
+    diagnostic::{Failures, all},
+    output::Outputs,
+};
 use pyo3::prelude::*;
 use serde_json::Value;
 use std::{
@@ -250,14 +254,7 @@ impl Job {
             }
         }
         let manifest = Manifest::within(&file.file, text, reach.clone(), &registry);
-        let mut manifest = manifest.map_err(|errors| {
-            Failure::all(
-                errors
-                    .into_iter()
-                    .map(|error| Box::new(error) as _)
-                    .collect(),
-            )
-        })?;
+        let mut manifest = manifest.map_err(|faults| Failure::all(all(faults)))?;
         self.previews(&mut manifest);
         self.built(&file, &manifest, steps, |request, setup| {
             let build = Build::new(&manifest, request)?;

@@ -2,15 +2,8 @@
 
 use crate::error::Failure;
 use asperity::{
-    emit::{
-        raise::raise,
-        textures::{TexturesError, TexturesProblem},
-    },
-    views::{
-        inspect::Document,
-        plot::{self, AssetBytes},
-        preview,
-    },
+    emit::textures::{TexturesError, TexturesProblem},
+    views::{inspect::Document, plot},
 };
 use asperity_formats::{Asset, FormatError};
 use std::{path::Path, sync::OnceLock};
@@ -63,17 +56,6 @@ impl Contents {
 
     /// The sheet that `asperity plot` draws, as PNG.
     pub(crate) fn sheet(&self) -> Result<Vec<u8>, Failure> {
-        let asset = self.asset()?;
-        let sizes = AssetBytes {
-            haptic: asset.haptic_len(),
-            total: asset.total_len(),
-        };
-        let picture = asset
-            .preview_png()
-            .and_then(|png| preview::stored(png).ok());
-        plot::sheet_with_picture(&raise(&asset), Some(sizes), picture.as_ref()).map_err(|error| {
-            let message = format!("the sheet cannot be drawn: {error}");
-            Failure::new(message, "free memory and try again")
-        })
+        Ok(plot::of_asset(&self.asset()?)?)
     }
 }

@@ -156,6 +156,14 @@ pub fn one(error: impl Diagnostic + 'static) -> Failures {
     vec![Box::new(error)]
 }
 
+/// For `map_err`: faults as the failures of a command.
+pub fn all(faults: Vec<Fault>) -> Failures {
+    faults
+        .into_iter()
+        .map(|fault| Box::new(fault) as _)
+        .collect()
+}
+
 /// The text that both commands print on stderr: `error: …`, `  help: …`. Errors repeat what files
 /// and users say, so control characters are escaped and the long is shortened.
 #[must_use]

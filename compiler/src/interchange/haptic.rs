@@ -274,7 +274,7 @@ pub(super) fn tone(
 }
 
 /// The value of an envelope at a time, straight between its points; `None` for an empty one.
-pub(super) fn value_at(points: &[(f64, f64)], t_s: f64) -> Option<f64> {
+fn value_at(points: &[(f64, f64)], t_s: f64) -> Option<f64> {
     let next = points.partition_point(|(t, _)| *t <= t_s);
     let before = next.checked_sub(1).map(|n| points[n]);
     match (before, points.get(next)) {

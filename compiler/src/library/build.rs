@@ -23,7 +23,7 @@ use crate::{
     },
 };
 use asperity_formats::Asset;
-use asperity_io::diagnostic::{Failure, Failures, Fault, one};
+use asperity_io::diagnostic::{Failure, Failures, Fault, all, one};
 use rayon::prelude::*;
 use std::{
     path::Path,
@@ -282,10 +282,7 @@ impl<'a> Build<'a> {
             });
         let mut unsure: Vec<Fault> = unsure.collect();
         unsure.sort_by_key(|fault| fault.line);
-        let failures: Failures = unsure
-            .into_iter()
-            .map(|error| Box::new(error) as _)
-            .collect();
+        let failures = all(unsure);
         if failures.is_empty() {
             Ok(())
         } else {

@@ -6,7 +6,7 @@ use asperity_formats::{
     limits::{MAX_POSITION_M, MAX_SURFACES, MIN_SOLID_M},
 };
 use asperity_io::{
-    diagnostic::{Failures, Fault, one},
+    diagnostic::{Failures, Fault, all, one},
     input::{self, Kind, Reach},
     shown::suggestion,
     toml_error::TomlError,
@@ -111,13 +111,12 @@ impl Description {
         match Manifest::of_scene(file, text, reach, registry) {
             Ok(manifest) => scene?.wearing(manifest).map_err(told),
             Err(faults) => {
-                let mut all: Failures = Vec::new();
-                all.extend(faults.into_iter().map(|fault| Box::new(fault) as _));
+                let mut failures = all(faults);
                 // What is no TOML is said once.
                 if DeTable::parse(text).is_ok() {
-                    all.extend(scene.err().into_iter().flatten());
+                    failures.extend(scene.err().into_iter().flatten());
                 }
-                Err(all)
+                Err(failures)
             }
         }
     }

@@ -8,11 +8,11 @@ use asperity_runtime::{Config, Counters, Output, Renderer, Sample};
 use asperity_sim::servo::silence;
 
 /// Renders no force.
-struct Unfelt {
+struct Passive {
     config: Config,
 }
 
-impl Render for Unfelt {
+impl Render for Passive {
     fn tick(&mut self, _: &Sample) -> Output {
         silence()
     }
@@ -39,7 +39,7 @@ pub fn run_passive<O: Observer + Send>(
     // What no renderer takes is refused here as well.
     Renderer::new(&setup.config)?;
     setup.settings.check(setup.config.servo_rate_hz)?;
-    let render = Unfelt {
+    let render = Passive {
         config: setup.config.clone(),
     };
     spawn(setup, render, device, observer, None, attend)

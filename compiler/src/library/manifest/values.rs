@@ -106,7 +106,7 @@ impl Checker<'_> {
         None
     }
 
-    pub(super) fn wrong_value<T>(
+    fn wrong_value<T>(
         &mut self,
         line: usize,
         key: &str,

@@ -8,7 +8,7 @@ use asperity_texture::signal::{
 use std::f64::consts::PI;
 
 /// LSFs this close to the coefficients are used as printed, dB RMS.
-pub(super) const AGREEMENT_DB: f64 = 0.05;
+const AGREEMENT_DB: f64 = 0.05;
 
 /// Polynomial of a model.
 #[derive(Debug, Clone, PartialEq)]

@@ -8,7 +8,7 @@ use asperity_io::diagnostic::Fault;
 /// The sheet of an asset as PNG.
 ///
 /// # Errors
-/// As [`sheet`](super::sheet).
+/// [`Fault`] if the embedded font or the encoder of PNG fails.
 pub fn of_asset(asset: &Asset<'_>) -> Result<Vec<u8>, Fault> {
     let sizes = AssetBytes {
         haptic: asset.haptic_len(),

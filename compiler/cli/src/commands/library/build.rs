@@ -12,7 +12,7 @@ use asperity::{
 use asperity_console::Console;
 use asperity_io::{
     clock::now,
-    diagnostic::{Diagnostic, Failures, Fault, one},
+    diagnostic::{Failures, Fault, all, one},
     input::Reach,
     output::{OutputId, Outputs, display, is_standard_output},
     shown::counted,
@@ -37,7 +37,7 @@ pub(crate) fn run(args: &Arguments, build: BuildFile, console: Console) -> Resul
     }
     let BuildFile { text, reach, .. } = build;
     let mut manifest =
-        Manifest::within(&args.scene, &text, reach.clone(), &Registry::default()).map_err(boxed)?;
+        Manifest::within(&args.scene, &text, reach.clone(), &Registry::default()).map_err(all)?;
     previews(args, &mut manifest);
     if args.check {
         return checked(args, &manifest, console);
@@ -171,13 +171,6 @@ impl Pins {
         }
         warnings
     }
-}
-
-fn boxed(errors: Vec<Fault>) -> Failures {
-    let boxed = errors
-        .into_iter()
-        .map(|error| Box::new(error) as Box<dyn Diagnostic>);
-    boxed.collect()
 }
 
 /// Prints the result of `--check` for a manifest without faults.
