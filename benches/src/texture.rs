@@ -118,6 +118,7 @@ fn encoded(
             effective_mass_kg: 0.05,
             f_max_n: 3.3,
         },
+        contact: None,
         provenance: None,
         preview_png: None,
     };

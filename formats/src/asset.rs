@@ -2,11 +2,12 @@
 
 use crate::{
     checksum::crc32,
+    contact::ContactLaw,
     coupling::Coupling,
     error::FormatError,
     friction::{Friction, text},
     grid::Grid,
-    header::{self, HAPTIC, Header, SectionInfo},
+    header::{self, Header, SectionInfo},
     latent::Latents,
     limits,
     provenance::Provenance,
@@ -25,6 +26,7 @@ pub struct Asset<'a> {
     taps: Taps<'a>,
     friction: Friction<'a>,
     coupling: Coupling,
+    contact: Option<ContactLaw<'a>>,
     provenance: Option<Provenance<'a>>,
 }
 
@@ -70,7 +72,7 @@ impl<'a> Asset<'a> {
                 found: bytes.len() as u64,
             });
         };
-        Self::parse_sections(haptic, header, HAPTIC.len())
+        Self::parse_sections(haptic, header, header.haptic_count())
     }
 
     fn parse_sections(
@@ -105,6 +107,7 @@ impl<'a> Asset<'a> {
             taps: Taps::parse(haptic(header::TAPS))?,
             friction: Friction::parse(haptic(header::FRICTION), header.version)?,
             coupling: Coupling::parse(haptic(header::COUPLING))?,
+            contact: find(header::CONTACT).map(ContactLaw::parse).transpose()?,
             provenance: ancillary(
                 find(header::PROVENANCE),
                 preview(bytes, &header),
@@ -114,7 +117,7 @@ impl<'a> Asset<'a> {
         })
     }
 
-    /// Version the asset was written in: 2 if its friction has a law, else 1.
+    /// Version the asset was written in: 3 with a contact law, 2 if its friction has a law, else 1.
     #[must_use]
     pub const fn version(&self) -> u16 {
         self.header.version
@@ -148,6 +151,12 @@ impl<'a> Asset<'a> {
     #[must_use]
     pub const fn coupling(&self) -> &Coupling {
         &self.coupling
+    }
+
+    /// The contact law, if the material gives way.
+    #[must_use]
+    pub const fn contact(&self) -> Option<&ContactLaw<'a>> {
+        self.contact.as_ref()
     }
 
     /// Provenance; absent after [`Asset::parse_haptic`].

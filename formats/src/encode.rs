@@ -3,12 +3,16 @@
 use crate::{
     asset::Asset,
     checksum::crc32,
+    contact::{Adhesion, Drag, Imprint, Relaxation, SpringPoint},
     coupling::Coupling,
     error::{EncodeError, FormatError},
     friction::Anchor,
     friction_law::LawPoint,
     grid::{Numerator, Vertex, VertexKind},
-    header::{self, ENTRY_LEN, FIXED_LEN, HAPTIC, MAGIC, VERSION_WITH_LAW, VERSION_WITHOUT_LAW},
+    header::{
+        self, ENTRY_LEN, FIXED_LEN, HAPTIC, MAGIC, VERSION_WITH_CONTACT, VERSION_WITH_LAW,
+        VERSION_WITHOUT_LAW,
+    },
     lsf::LsfCode,
     provenance::Provenance,
     taps::FULL_SCALE,
@@ -28,6 +32,8 @@ pub struct AssetParts<'a> {
     pub friction: FrictionParts<'a>,
     /// Wall and gains.
     pub coupling: Coupling,
+    /// The contact law of a material that gives way; with one the asset is of version 3.
+    pub contact: Option<ContactParts<'a>>,
     /// Where the texture comes from.
     pub provenance: Option<Provenance<'a>>,
     /// PNG.
@@ -85,6 +91,23 @@ pub struct FrictionParts<'a> {
     pub law: &'a [LawPoint],
 }
 
+/// A contact law to be written; see [`ContactLaw`](crate::ContactLaw).
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ContactParts<'a> {
+    /// λ, s/m.
+    pub damping_s_m: f32,
+    /// The Maxwell branch.
+    pub relaxation: Relaxation,
+    /// What does not spring back.
+    pub imprint: Imprint,
+    /// What raises the limit of friction.
+    pub drag: Drag,
+    /// The pull at release.
+    pub adhesion: Adhesion,
+    /// Points of the spring's shape, 0 to 7.
+    pub spring: &'a [SpringPoint],
+}
+
 /// Writes an asset into `out` and returns its length.
 ///
 /// What was written is parsed again before it is returned, so a success is a
@@ -96,7 +119,7 @@ pub struct FrictionParts<'a> {
 pub fn encode(parts: &AssetParts<'_>, out: &mut [u8]) -> Result<usize, EncodeError> {
     let ancillary =
         usize::from(parts.provenance.is_some()) + usize::from(parts.preview_png.is_some());
-    let sections = HAPTIC.len() + ancillary;
+    let sections = HAPTIC.len() + usize::from(parts.contact.is_some()) + ancillary;
     let table_end = FIXED_LEN + sections * ENTRY_LEN;
     let mut table = Table {
         entry: FIXED_LEN,
@@ -114,7 +137,11 @@ pub fn encode(parts: &AssetParts<'_>, out: &mut [u8]) -> Result<usize, EncodeErr
     table.close(out, header::FRICTION, end)?;
     let end = write_coupling(&parts.coupling, Writer::new(out, table.section))?;
     table.close(out, header::COUPLING, end)?;
-    let haptic_len = end;
+    if let Some(contact) = &parts.contact {
+        let end = write_contact(contact, Writer::new(out, table.section))?;
+        table.close(out, header::CONTACT, end)?;
+    }
+    let haptic_len = table.section;
     if let Some(provenance) = &parts.provenance {
         let place = out.get_mut(table.section..).unwrap_or_default();
         let used = postcard::to_slice(provenance, place)
@@ -132,7 +159,9 @@ pub fn encode(parts: &AssetParts<'_>, out: &mut [u8]) -> Result<usize, EncodeErr
     let total_len = table.section;
     let mut writer = Writer::new(out, 0);
     writer.bytes(&MAGIC)?;
-    writer.u16(if parts.friction.law.is_empty() {
+    writer.u16(if parts.contact.is_some() {
+        VERSION_WITH_CONTACT
+    } else if parts.friction.law.is_empty() {
         VERSION_WITHOUT_LAW
     } else {
         VERSION_WITH_LAW
@@ -325,6 +354,31 @@ fn write_coupling(coupling: &Coupling, mut writer: Writer<'_>) -> Result<usize, 
         coupling.f_max_n,
     ] {
         writer.f32(value)?;
+    }
+    Ok(writer.position())
+}
+
+fn write_contact(contact: &ContactParts<'_>, mut writer: Writer<'_>) -> Result<usize, EncodeError> {
+    let (relaxation, imprint) = (&contact.relaxation, &contact.imprint);
+    for value in [
+        contact.damping_s_m,
+        relaxation.stiffness_n_m,
+        relaxation.time_s,
+        imprint.yield_m,
+        imprint.share,
+        imprint.heal,
+        imprint.recovery_s,
+        contact.drag.viscous_n_s_m2,
+        contact.drag.plough_n_m,
+        contact.adhesion.pull_n,
+        contact.adhesion.stiffness_n_m,
+    ] {
+        writer.f32(value)?;
+    }
+    writer.u8(byte("contact.spring", contact.spring.len())?)?;
+    for point in contact.spring {
+        writer.u16(point.depth_code)?;
+        writer.u16(point.shape_code)?;
     }
     Ok(writer.position())
 }

@@ -1,9 +1,9 @@
-//! FRIC: μ, the anchors it was interpolated from and, in version 2, its law over speed.
+//! FRIC: μ, the anchors it was interpolated from and, from version 2 on, its law over speed.
 
 use crate::{
     error::{FormatError, in_range},
     friction_law::FrictionLaw,
-    header::{VERSION_WITH_LAW, VERSION_WITHOUT_LAW},
+    header::{VERSION_WITH_CONTACT, VERSION_WITH_LAW, VERSION_WITHOUT_LAW},
     limits,
     wire::Reader,
 };
@@ -33,7 +33,13 @@ impl<'a> Friction<'a> {
     pub(crate) fn parse(bytes: &'a [u8], version: u16) -> Result<Self, FormatError> {
         let mut reader = Reader::new(bytes);
         let mut friction = Self::without_law(&mut reader, bytes)?;
-        if version >= VERSION_WITH_LAW {
+        // Version 3 is there for another reason, so its friction may have a law or none.
+        let has_law = match version {
+            ..VERSION_WITH_LAW => false,
+            VERSION_WITH_LAW => true,
+            VERSION_WITH_CONTACT.. => !reader.is_empty(),
+        };
+        if has_law {
             friction.law = Some(FrictionLaw::parse(&mut reader, friction.mu)?);
         }
         reader.finish("friction")?;

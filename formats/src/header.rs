@@ -3,11 +3,13 @@
 use crate::{checksum::crc32, error::FormatError, limits, wire::array_at};
 
 /// Latest version of the asset format; an asset is written in the lowest one that can hold it.
-pub const VERSION: u16 = VERSION_WITH_LAW;
+pub const VERSION: u16 = VERSION_WITH_CONTACT;
 /// The version of an asset whose friction has no law.
 pub(crate) const VERSION_WITHOUT_LAW: u16 = 1;
 /// The version of an asset whose friction has a law.
 pub(crate) const VERSION_WITH_LAW: u16 = 2;
+/// The version of an asset with a contact law.
+pub(crate) const VERSION_WITH_CONTACT: u16 = 3;
 /// First bytes of an asset.
 pub(crate) const MAGIC: [u8; 4] = *b"ASPT";
 /// Bytes before the section table.
@@ -22,12 +24,13 @@ pub(crate) const GRID: [u8; 4] = *b"GRID";
 pub(crate) const TAPS: [u8; 4] = *b"TAPS";
 pub(crate) const FRICTION: [u8; 4] = *b"FRIC";
 pub(crate) const COUPLING: [u8; 4] = *b"SURF";
+pub(crate) const CONTACT: [u8; 4] = *b"CONT";
 pub(crate) const PROVENANCE: [u8; 4] = *b"prov";
 pub(crate) const PREVIEW: [u8; 4] = *b"prev";
 pub(crate) const LATENT: [u8; 4] = *b"late";
 pub(crate) const HISTORY: [u8; 4] = *b"hist";
 
-/// The haptic sections: all of them, in this order.
+/// The haptic sections that every asset has, in this order. Version 3 adds [`CONTACT`].
 pub(crate) const HAPTIC: [([u8; 4], &str); 5] = [
     (NAME, "name"),
     (GRID, "grid"),
@@ -60,6 +63,7 @@ impl SectionInfo {
     pub(crate) fn label(&self) -> &'static str {
         HAPTIC.iter().find(|(tag, _)| *tag == self.tag).map_or_else(
             || match self.tag {
+                CONTACT => "contact",
                 PROVENANCE => "provenance",
                 PREVIEW => "preview",
                 LATENT => "latent",
@@ -159,7 +163,13 @@ impl<'a> Header<'a> {
                 });
             }
         }
-        for (position, section) in self.sections().enumerate().skip(HAPTIC.len()) {
+        if self.has_contact() != (self.version >= VERSION_WITH_CONTACT) {
+            return Err(FormatError::Section {
+                tag: CONTACT,
+                reason: "must be there in version 3, and in no earlier one",
+            });
+        }
+        for (position, section) in self.sections().enumerate().skip(self.haptic_count()) {
             if section.is_haptic() {
                 return Err(FormatError::Section {
                     tag: section.tag,
@@ -186,7 +196,7 @@ impl<'a> Header<'a> {
                 "must be the sum of header, table and sections",
             ));
         }
-        let haptic: u64 = self.end_of(self.sections().take(HAPTIC.len()));
+        let haptic: u64 = self.end_of(self.sections().take(self.haptic_count()));
         if haptic != self.haptic_len as u64 {
             return Err(FormatError::invalid(
                 "header.haptic_len",
@@ -196,6 +206,15 @@ impl<'a> Header<'a> {
             ));
         }
         Ok(())
+    }
+
+    fn has_contact(&self) -> bool {
+        self.sections().nth(HAPTIC.len()).map(|s| s.tag) == Some(CONTACT)
+    }
+
+    /// Number of haptic sections.
+    pub(crate) fn haptic_count(&self) -> usize {
+        HAPTIC.len() + usize::from(self.has_contact())
     }
 
     fn end_of(&self, sections: impl Iterator<Item = SectionInfo>) -> u64 {

@@ -25,7 +25,7 @@
 //!
 //! # What to read first
 //!
-//! [`Asset`], then the views that it gives: [`Grid`], [`Taps`], [`Friction`], [`Coupling`]. [`encode()`] writes an
+//! [`Asset`], then the views that it gives: [`Grid`], [`Taps`], [`Friction`], [`Coupling`], [`ContactLaw`]. [`encode()`] writes an
 //! asset from [`AssetParts`]. [`Library`] finds one texture among many, [`Scene`] places them on solids, and
 //! [`limits`] states what readers have to make room for. `SPEC.md` beside this crate specifies every byte.
 #![no_std]
@@ -33,6 +33,7 @@
 
 mod asset;
 mod checksum;
+mod contact;
 mod coupling;
 mod encode;
 mod error;
@@ -52,8 +53,11 @@ pub mod taps;
 mod wire;
 
 pub use asset::Asset;
+pub use contact::{Adhesion, ContactLaw, Drag, Imprint, Relaxation, SpringPoint};
 pub use coupling::Coupling;
-pub use encode::{AssetParts, FrictionParts, GridParts, ModelParts, TapParts, encode};
+pub use encode::{
+    AssetParts, ContactParts, FrictionParts, GridParts, ModelParts, TapParts, encode,
+};
 pub use error::{EncodeError, FormatError};
 pub use friction::{Anchor, Friction};
 pub use friction_law::{FrictionLaw, LawPoint};

@@ -58,6 +58,22 @@ pub const MAX_MU: f32 = 10.0;
 pub const MAX_STIFFNESS_N_M: f32 = 100_000.0;
 /// Largest rendered wall damping, N·s/m.
 pub const MAX_DAMPING_N_S_M: f32 = 1_000.0;
+/// Most points of a spring's shape.
+pub const MAX_SPRING_POINTS: usize = 7;
+/// Largest damping that grows with the load, s/m.
+pub const MAX_LOAD_DAMPING_S_M: f32 = 100.0;
+/// Range of a time constant of relaxation, s.
+pub const RELAXATION_S: (f32, f32) = (0.005, 20.0);
+/// Largest elastic depth at which a surface yields, m.
+pub const MAX_YIELD_M: f32 = 0.05;
+/// Largest time constant with which an imprint recovers, s.
+pub const MAX_RECOVERY_S: f32 = 60.0;
+/// Largest viscous drag, N·s/m².
+pub const MAX_VISCOUS_N_S_M2: f32 = 1.0e5;
+/// Largest drag of ploughing, N/m.
+pub const MAX_PLOUGH_N_M: f32 = 1.0e4;
+/// Largest pull of adhesion, N.
+pub const MAX_PULL_N: f32 = 100.0;
 /// Largest vibration gain, s²/m.
 pub const MAX_VIB_GAIN_S2_M: f32 = 1_000.0;
 /// Largest effective mass, kg.

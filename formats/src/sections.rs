@@ -5,7 +5,10 @@ use crate::{
     checksum::crc32,
     error::EncodeError,
     friction::Friction,
-    header::{ENTRY_LEN, FIXED_LEN, FRICTION, HAPTIC, MAGIC, VERSION_WITHOUT_LAW},
+    header::{
+        CONTACT, ENTRY_LEN, FIXED_LEN, FRICTION, HAPTIC, MAGIC, VERSION_WITH_CONTACT,
+        VERSION_WITHOUT_LAW,
+    },
     wire::Writer,
 };
 
@@ -34,14 +37,19 @@ pub fn assemble(sections: &[([u8; 4], &[u8])], out: &mut [u8]) -> Result<usize, 
     })?;
     let total_len = assembled_len(sections);
     let table_end = FIXED_LEN + sections.len() * ENTRY_LEN;
+    let contact = sections.iter().any(|(tag, _)| *tag == CONTACT);
     let haptic_len = sections
         .iter()
-        .take(HAPTIC.len())
+        .take(HAPTIC.len() + usize::from(contact))
         .fold(table_end, |sum, (_, body)| sum + body.len());
     let mut writer = Writer::new(out, 0);
     writer.bytes(&MAGIC)?;
     let friction = sections.iter().find(|(tag, _)| *tag == FRICTION);
-    writer.u16(friction.map_or(VERSION_WITHOUT_LAW, |(_, body)| Friction::version_of(body)))?;
+    writer.u16(if contact {
+        VERSION_WITH_CONTACT
+    } else {
+        friction.map_or(VERSION_WITHOUT_LAW, |(_, body)| Friction::version_of(body))
+    })?;
     writer.u8(count)?;
     writer.u8(0)?;
     writer.u32(total_len as u32)?;

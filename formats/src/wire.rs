@@ -52,6 +52,11 @@ impl<'a> Reader<'a> {
         Ok(f32::from_le_bytes(self.array(field)?))
     }
 
+    /// Returns true if nothing is left.
+    pub(crate) const fn is_empty(&self) -> bool {
+        self.position == self.bytes.len()
+    }
+
     /// A section may not hold more than its fields.
     pub(crate) fn finish(self, section: &'static str) -> Result<(), FormatError> {
         if self.position == self.bytes.len() {

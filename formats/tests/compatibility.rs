@@ -3,6 +3,7 @@
 use crate::common;
 use crate::common::{
     append_section, falling, put, replace_section, seal_header, section::PROVENANCE, small, span,
+    yielding,
 };
 use asperity_formats::{Asset, FormatError, VERSION, assemble, assembled_len};
 
@@ -82,10 +83,11 @@ fn a_prefix_of_haptic_len_bytes_is_enough_for_a_runtime() {
 }
 
 #[test]
-fn only_an_asset_with_a_law_of_friction_is_of_version_2() {
-    assert_eq!(VERSION, 2);
+fn an_asset_is_of_the_lowest_version_that_can_hold_it() {
+    assert_eq!(VERSION, 3);
     assert_eq!(small().encode()[4..6], [1, 0]);
     assert_eq!(falling().encode()[4..6], [2, 0]);
+    assert_eq!(yielding().encode()[4..6], [3, 0]);
 }
 
 /// A reader of version 1 rejects a later version before it reads any further, so it never takes the
@@ -120,20 +122,59 @@ fn a_law_is_never_read_as_part_of_another_version() {
         ),
         "{error:?}"
     );
-    put(&mut bytes, 4, &[3, 0]);
+    put(&mut bytes, 4, &[4, 0]);
     seal_header(&mut bytes);
     assert_eq!(
         Asset::parse(&bytes).map(drop),
         Err(FormatError::Version {
-            found: 3,
-            supported: 2
+            found: 4,
+            supported: 3
         })
     );
 }
 
+/// The section of the contact law belongs to version 3 and to no other, and stands behind `SURF`.
+#[test]
+fn a_contact_law_is_never_skipped() {
+    let forged = |mut bytes: Vec<u8>, version: u8| {
+        put(&mut bytes, 4, &[version, 0]);
+        seal_header(&mut bytes);
+        Asset::parse(&bytes).map(drop)
+    };
+    let misplaced = FormatError::Section {
+        tag: *b"CONT",
+        reason: "must be there in version 3, and in no earlier one",
+    };
+    for (bytes, version) in [
+        (yielding().encode(), 1),
+        (yielding().encode(), 2),
+        (falling().encode(), 3),
+        (small().encode(), 3),
+    ] {
+        assert_eq!(forged(bytes, version), Err(misplaced), "{version}");
+    }
+    let mut bytes = yielding().encode();
+    append_section(&mut bytes, b"CONT", &[0; 45]);
+    let twice = FormatError::Section {
+        tag: *b"CONT",
+        reason: "unknown haptic section",
+    };
+    assert_eq!(Asset::parse(&bytes).map(drop), Err(twice));
+    let bytes = yielding().encode();
+    let whole = Asset::parse(&bytes).unwrap();
+    let haptic = Asset::parse_haptic(&bytes[..whole.haptic_len()]).unwrap();
+    assert_eq!(haptic.contact(), whole.contact());
+    assert!(whole.contact().is_some());
+    let mut parts = yielding();
+    parts.law.clear();
+    let bytes = parts.encode();
+    let without = Asset::parse(&bytes).unwrap();
+    assert_eq!((without.version(), without.friction().law()), (3, None));
+}
+
 #[test]
 fn an_asset_that_is_assembled_of_sections_keeps_its_law_and_its_version() {
-    for parts in [small(), falling()] {
+    for parts in [small(), falling(), yielding()] {
         let bytes = parts.encode();
         let asset = Asset::parse(&bytes).unwrap();
         let sections: Vec<_> = (asset.sections())
@@ -146,16 +187,18 @@ fn an_asset_that_is_assembled_of_sections_keeps_its_law_and_its_version() {
 }
 
 #[test]
-fn the_committed_asset_with_a_law_is_what_is_written_today() {
-    let bytes = falling().encode();
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/law-v2.asp");
-    if std::env::var_os("ASPERITY_BLESS").is_some() {
-        std::fs::write(path, &bytes).unwrap();
+fn the_committed_assets_are_what_is_written_today() {
+    for (parts, file) in [(falling(), "law-v2.asp"), (yielding(), "contact-v3.asp")] {
+        let bytes = parts.encode();
+        let path = format!("{}/tests/data/{file}", env!("CARGO_MANIFEST_DIR"));
+        if std::env::var_os("ASPERITY_BLESS").is_some() {
+            std::fs::write(&path, &bytes).unwrap();
+        }
+        let committed = std::fs::read(&path).unwrap();
+        assert!(
+            committed == bytes,
+            "{file}: the writer changed its bytes; if this version was never released, run\n\
+             ASPERITY_BLESS=1 cargo test -p asperity-formats --test it compatibility::"
+        );
     }
-    let committed = std::fs::read(path).unwrap();
-    assert!(
-        committed == bytes,
-        "the writer changed its bytes; if version 2 was never released, run\n\
-         ASPERITY_BLESS=1 cargo test -p asperity-formats --test it compatibility::"
-    );
 }

@@ -1,7 +1,7 @@
 //! Lengths and counts that exceed the file are refused, and the checks run in their order.
 
 use crate::common::{
-    append_section, falling, full, put, seal, seal_header, section::GRID, small, span,
+    append_section, falling, full, put, seal, seal_header, section::GRID, small, span, yielding,
 };
 use asperity_formats::{Asset, FormatError, Library, library};
 use proptest::{collection::vec, prelude::*};
@@ -203,7 +203,17 @@ fn read_all(asset: &Asset<'_>) -> f64 {
     let law = asset.friction().law();
     let law = law.into_iter().flat_map(|law| law.points());
     let law = law.map(|p| f64::from(p.speed_mm_s() + p.factor()));
-    let numbers = lsf.chain(taps).chain(anchors).chain(law).chain(vertices);
+    let contact = asset.contact().into_iter().flat_map(|law| {
+        let numbers = law.damping_s_m + law.relaxation.time_s + law.imprint.yield_m;
+        let points = law.points().map(|p| p.depth_m() + p.shape_m());
+        points.chain([f64::from(numbers + law.adhesion.stiffness_n_m)])
+    });
+    let numbers = lsf
+        .chain(contact)
+        .chain(taps)
+        .chain(anchors)
+        .chain(law)
+        .chain(vertices);
     numbers.sum::<f64>() + png
 }
 
@@ -214,9 +224,14 @@ proptest! {
     #[test]
     fn sealed_damage_is_rejected_or_reads_as_finite_numbers(
         patches in vec((any::<prop::sample::Index>(), any::<u8>()), 1..4),
-        (table, law) in any::<(bool, bool)>(),
+        (table, kind) in (any::<bool>(), 0..3),
     ) {
-        let mut bytes = if law { falling() } else { small() }.encode();
+        let mut bytes = match kind {
+            0 => small(),
+            1 => falling(),
+            _ => yielding(),
+        }
+        .encode();
         for (at, value) in patches {
             let from = if table { 0 } else { 20 + 12 * 7 };
             let range = bytes.len() - from;

@@ -4,7 +4,8 @@
 use crate::common;
 use crate::common::{Parts, full, lattice, small, spec_reader};
 use asperity_formats::{
-    Asset, Coupling, EncodeError, FormatError, LawPoint, Numerator, Vertex, VertexKind,
+    Adhesion, Asset, ContactParts, Coupling, Drag, EncodeError, FormatError, Imprint, LawPoint,
+    Numerator, Relaxation, SpringPoint, Vertex, VertexKind,
 };
 use proptest::{collection::vec, prelude::*};
 
@@ -115,11 +116,52 @@ fn law() -> impl Strategy<Value = Vec<(u16, u16)>> {
     proptest::option::of(points).prop_map(Option::unwrap_or_default)
 }
 
+/// No contact law, or one whose parts are there or not.
+fn contact() -> impl Strategy<Value = Option<(ContactParts<'static>, Vec<SpringPoint>)>> {
+    let number = 0.0_f32..1.0;
+    let steps = vec((1_u16..9000, 0.0_f64..=1.0), 0..=7);
+    let law = (vec(number, 11), any::<[bool; 4]>(), steps).prop_map(|(x, there, steps)| {
+        let part = |part: usize, value: f32| if there[part] { value + 0.01 } else { 0.0 };
+        let numbers = ContactParts {
+            damping_s_m: x[0],
+            relaxation: Relaxation {
+                stiffness_n_m: part(0, x[1]),
+                time_s: part(0, x[2]),
+            },
+            imprint: Imprint {
+                yield_m: part(1, x[3] * 0.04) * f32::from(there[1]),
+                share: part(1, x[4] * 0.9),
+                heal: part(1, x[5] * 0.9),
+                recovery_s: part(1, x[6]),
+            },
+            drag: Drag {
+                viscous_n_s_m2: part(2, x[7]),
+                plough_n_m: x[8],
+            },
+            adhesion: Adhesion {
+                pull_n: part(3, x[9]),
+                stiffness_n_m: part(3, x[10]),
+            },
+            spring: &[],
+        };
+        let mut last = SpringPoint::default();
+        let spring = (steps.into_iter())
+            .map(|(deeper, slope)| {
+                last.depth_code += deeper;
+                last.shape_code += (slope * f64::from(deeper)) as u16;
+                last
+            })
+            .collect();
+        (numbers, spring)
+    });
+    proptest::option::of(law)
+}
+
 prop_compose! {
     fn parts()(
         grid in grid(), name in name(), traces in traces(),
         rates in (100.0_f32..2e5, 100.0_f32..2e5), mu in 0.0_f32..10.0,
-        anchors in vec((name(), 0.0_f32..10.0, 0.0_f32..=1.0), 0..=16), law in law(),
+        anchors in vec((name(), 0.0_f32..10.0, 0.0_f32..=1.0), 0..=16), law in law(), contact in contact(),
         surface in (1e-3_f32..1e5, 0.0_f32..1e3, 0.0_f32..1e3, 0.0_f32..100.0, 1e-3_f32..1e4),
         metadata in any::<(bool, u64, u32, bool)>(), png in vec(any::<u8>(), 0..50), preview in any::<bool>(),
     ) -> Parts {
@@ -145,6 +187,7 @@ prop_compose! {
             effective_mass_kg: surface.3,
             f_max_n: surface.4,
         };
+        parts.contact = contact;
         let (present, seed, source_crc32, prompt) = metadata;
         parts.provenance = parts.provenance.filter(|_| present).map(|mut provenance| {
             provenance.seed = seed;
@@ -213,6 +256,24 @@ fn as_plain(bytes: &[u8]) -> spec_reader::Plain {
             surface.effective_mass_kg,
             surface.f_max_n,
         ],
+        contact: asset.contact().map(|law| {
+            let (relaxation, imprint) = (law.relaxation, law.imprint);
+            let numbers = [
+                law.damping_s_m,
+                relaxation.stiffness_n_m,
+                relaxation.time_s,
+                imprint.yield_m,
+                imprint.share,
+                imprint.heal,
+                imprint.recovery_s,
+                law.drag.viscous_n_s_m2,
+                law.drag.plough_n_m,
+                law.adhesion.pull_n,
+                law.adhesion.stiffness_n_m,
+            ];
+            let spring = law.points().map(|p| (p.depth_m(), p.shape_m()));
+            (numbers, spring.collect())
+        }),
         provenance: asset.provenance().map(|p| spec_reader::PlainProvenance {
             generator: p.generator.into(),
             source: p.source.into(),
@@ -259,6 +320,13 @@ proptest! {
         let law: Vec<_> = parts.law.iter()
             .map(|p| (f64::from(p.speed_mm_s()), f64::from(p.factor()))).collect();
         prop_assert_eq!(&plain.law, &law);
+        prop_assert_eq!(plain.contact.is_some(), parts.contact.is_some());
+        if let (Some((numbers, spring)), Some((parts, points))) = (&plain.contact, &parts.contact) {
+            prop_assert_eq!(numbers[2], parts.relaxation.time_s);
+            prop_assert_eq!(numbers[10], parts.adhesion.stiffness_n_m);
+            let points: Vec<_> = points.iter().map(|p| (p.depth_m(), p.shape_m())).collect();
+            prop_assert_eq!(spring, &points);
+        }
         prop_assert_eq!(&plain.preview_png, &parts.preview_png);
         prop_assert_eq!(plain.provenance.map(|p| p.seed), parts.provenance.map(|p| p.seed));
         for (read, (ar, ma, gain)) in plain.models.iter().zip(&parts.models) {

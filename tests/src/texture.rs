@@ -265,6 +265,7 @@ impl Texture {
                 law: &self.law,
             },
             coupling: self.coupling,
+            contact: None,
             provenance: None,
             preview_png: None,
         };

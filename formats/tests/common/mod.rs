@@ -5,8 +5,9 @@
 pub mod spec_reader;
 
 use asperity_formats::{
-    Anchor, AssetParts, Coupling, EncodeError, FrictionParts, GridParts, LawPoint, LsfCode,
-    ModelParts, Numerator, Provenance, TapParts, Vertex, VertexKind, encode,
+    Adhesion, Anchor, AssetParts, ContactParts, Coupling, Drag, EncodeError, FrictionParts,
+    GridParts, Imprint, LawPoint, LsfCode, ModelParts, Numerator, Provenance, Relaxation,
+    SpringPoint, TapParts, Vertex, VertexKind, encode,
 };
 
 /// LSF codes, MA LSF codes and gain.
@@ -27,19 +28,23 @@ pub struct Parts {
     pub anchors: Vec<(String, f32, f32)>,
     pub law: Vec<LawPoint>,
     pub coupling: Coupling,
+    /// Numbers and spring of the contact law.
+    pub contact: Option<(ContactParts<'static>, Vec<SpringPoint>)>,
     pub provenance: Option<Provenance<'static>>,
     pub preview_png: Option<Vec<u8>>,
 }
 
 pub const PNG_MAGIC: &[u8; 8] = b"\x89PNG\r\n\x1a\n";
 
-/// Section numbers of version 1, in the order of the section table.
+/// Section numbers of versions 1 and 2, in the order of the section table.
 pub mod section {
     pub const NAME: usize = 0;
     pub const GRID: usize = 1;
     pub const TAPS: usize = 2;
     pub const FRICTION: usize = 3;
     pub const SURFACE: usize = 4;
+    /// In version 3.
+    pub const CONTACT: usize = 5;
     pub const PROVENANCE: usize = 5;
     pub const PREVIEW: usize = 6;
 }
@@ -83,6 +88,7 @@ pub fn small() -> Parts {
             effective_mass_kg: 0.05,
             f_max_n: 3.0,
         },
+        contact: None,
         provenance: Some(Provenance {
             generator: "hand",
             source: "",
@@ -105,6 +111,39 @@ pub fn falling() -> Parts {
         name: "Cork, waxed".into(),
         law: vec![point(20.0, 1.5), point(60.0, 1.0), point(200.5, 0.625)],
         ..small()
+    }
+}
+
+/// [`falling`] with every part of a contact law, hence of version 3.
+pub fn yielding() -> Parts {
+    let point = |depth_m, shape_m| SpringPoint::nearest(depth_m, shape_m).unwrap();
+    let numbers = ContactParts {
+        damping_s_m: 0.25,
+        relaxation: Relaxation {
+            stiffness_n_m: 60.0,
+            time_s: 1.5,
+        },
+        imprint: Imprint {
+            yield_m: 0.002,
+            share: 0.75,
+            heal: 0.125,
+            recovery_s: 20.0,
+        },
+        drag: Drag {
+            viscous_n_s_m2: 800.0,
+            plough_n_m: 12.0,
+        },
+        adhesion: Adhesion {
+            pull_n: 0.25,
+            stiffness_n_m: 100.0,
+        },
+        spring: &[],
+    };
+    let spring = vec![point(0.01, 0.0025), point(0.03, 0.005), point(0.04, 0.015)];
+    Parts {
+        name: "Cork, chewed".into(),
+        contact: Some((numbers, spring)),
+        ..falling()
     }
 }
 
@@ -212,6 +251,10 @@ impl Parts {
                 law: &self.law,
             },
             coupling: self.coupling,
+            contact: self
+                .contact
+                .as_ref()
+                .map(|(numbers, spring)| ContactParts { spring, ..*numbers }),
             provenance: self.provenance,
             preview_png: self.preview_png.as_deref(),
         };
@@ -304,7 +347,9 @@ pub fn restate(asset: &mut [u8]) {
         let (start, len) = span(asset, sections - 1);
         (start + len) as u32
     };
-    let (total, haptic) = (end(usize::from(asset[6])), end(5));
+    let contact = asset.get(20 + 12 * 5..20 + 12 * 5 + 4) == Some(b"CONT");
+    let haptic = end(5 + usize::from(contact));
+    let total = end(usize::from(asset[6]));
     put(asset, 8, &total.to_le_bytes());
     put(asset, 12, &haptic.to_le_bytes());
     seal(asset);

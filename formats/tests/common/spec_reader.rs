@@ -22,6 +22,8 @@ pub struct Plain {
     /// Speed (mm/s) and factor.
     pub law: Vec<(f64, f64)>,
     pub coupling: [f32; 5],
+    /// The numbers of the contact law, in their order, and depth and shape of its spring, m.
+    pub contact: Option<([f32; 11], Vec<(f64, f64)>)>,
     pub provenance: Option<PlainProvenance>,
     pub preview_png: Option<Vec<u8>>,
 }
@@ -105,7 +107,7 @@ pub fn read(asset: &[u8]) -> Plain {
         let (start, len) = span(asset, section);
         Cursor(&asset[start..start + len])
     };
-    let ancillary = |tag: &[u8; 4]| {
+    let behind = |tag: &[u8; 4]| {
         (5..usize::from(asset[6]))
             .find(|section| &asset[20 + 12 * section..][..4] == tag)
             .map(body)
@@ -157,8 +159,9 @@ pub fn read(asset: &[u8]) -> Plain {
             (friction.text(usize::from(len)), mu, weight)
         })
         .collect();
-    // In version 2 the law follows.
-    let points = if asset[4] == 2 { friction.u8() } else { 0 };
+    // The law follows in version 2, and may follow in version 3.
+    let law = asset[4] == 2 || asset[4] == 3 && !friction.0.is_empty();
+    let points = if law { friction.u8() } else { 0 };
     let law = (0..points)
         .map(|_| {
             (
@@ -181,7 +184,15 @@ pub fn read(asset: &[u8]) -> Plain {
         anchors,
         law,
         coupling: std::array::from_fn(|_| surface.f32()),
-        provenance: ancillary(b"prov").map(|mut prov| PlainProvenance {
+        contact: behind(b"CONT").map(|mut contact| {
+            let numbers = std::array::from_fn(|_| contact.f32());
+            let micrometres = |contact: &mut Cursor<'_>| f64::from(contact.u16()) / 1e6;
+            let spring = (0..contact.u8())
+                .map(|_| (micrometres(&mut contact), micrometres(&mut contact)))
+                .collect();
+            (numbers, spring)
+        }),
+        provenance: behind(b"prov").map(|mut prov| PlainProvenance {
             generator: prov.postcard_text(),
             source: prov.postcard_text(),
             source_crc32: prov.varint(),
@@ -192,6 +203,6 @@ pub fn read(asset: &[u8]) -> Plain {
             lsf_error_db: prov.f32(),
             notes: prov.postcard_text(),
         }),
-        preview_png: ancillary(b"prev").map(|png| png.0.to_vec()),
+        preview_png: behind(b"prev").map(|png| png.0.to_vec()),
     }
 }

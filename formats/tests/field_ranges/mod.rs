@@ -6,8 +6,8 @@ mod others;
 
 use crate::common::{
     falling, put, replace_section, seal, seal_header,
-    section::{FRICTION, GRID, NAME, PREVIEW, PROVENANCE, SURFACE, TAPS},
-    small, span,
+    section::{CONTACT, FRICTION, GRID, NAME, PREVIEW, PROVENANCE, SURFACE, TAPS},
+    small, span, yielding,
 };
 use asperity_formats::{Asset, FormatError};
 

@@ -306,12 +306,12 @@ fn fields_of_the_header() {
             expected: *b"ASPT"
         }
     );
-    for version in [0_u16, 3, 65535] {
+    for version in [0_u16, 4, 65535] {
         assert_eq!(
             patched(4, &version.to_le_bytes()),
             FormatError::Version {
                 found: version,
-                supported: 2
+                supported: 3
             }
         );
     }
@@ -358,4 +358,70 @@ fn fields_of_the_header() {
             reason: "appears twice"
         }
     );
+}
+
+/// Patches the contact law of [`yielding`], recomputes the CRCs and checks both readers.
+fn rejected_contact(at: usize, piece: &[u8], expect: &Expect) {
+    let mut bytes = yielding().encode();
+    let (start, _) = span(&bytes, CONTACT);
+    put(&mut bytes, start + at, piece);
+    seal(&mut bytes);
+    let case = format!("byte {at} of the contact law = {piece:02x?}");
+    check(Asset::parse(&bytes).expect_err(&case), expect, &case);
+    check(Asset::parse_haptic(&bytes).expect_err(&case), expect, &case);
+}
+
+#[test]
+fn the_contact_law() {
+    // Offset, field, largest value, offset of the number without which it must be 0.
+    for (at, field, most, part) in [
+        (0, "contact.damping_s_m", 100.0, None),
+        (4, "contact.relaxation.stiffness_n_m", 1e5, None),
+        (8, "contact.relaxation.time_s", 20.0, Some(4)),
+        (12, "contact.imprint.yield_m", 0.05, Some(16)),
+        (16, "contact.imprint.share", 1.0, None),
+        (20, "contact.imprint.heal", 1.0, Some(16)),
+        (24, "contact.imprint.recovery_s", 60.0, Some(16)),
+        (28, "contact.drag.viscous_n_s_m2", 1e5, None),
+        (32, "contact.drag.plough_n_m", 1e4, None),
+        (36, "contact.adhesion.pull_n", 100.0, None),
+        (40, "contact.adhesion.stiffness_n_m", 1e5, Some(36)),
+    ] {
+        let most: f32 = most;
+        for value in [-1e-30, most.next_up(), f32::NAN, f32::INFINITY] {
+            let wrong = Invalid(field, 0, value.into());
+            rejected_contact(at, &value.to_le_bytes(), &wrong);
+        }
+        if let Some(part) = part {
+            let mut bytes = yielding().encode();
+            let (start, _) = span(&bytes, CONTACT);
+            put(&mut bytes, start + part, &[0; 4]);
+            seal(&mut bytes);
+            let error = Asset::parse(&bytes).unwrap_err();
+            let named = matches!(error, FormatError::Invalid { .. });
+            assert!(named, "{field} without its part: {error:?}");
+        }
+    }
+    for time_s in [0.0, 0.004_99] {
+        let wrong = Invalid("contact.relaxation.time_s", 0, f64::from(time_s as f32));
+        rejected_contact(8, &(time_s as f32).to_le_bytes(), &wrong);
+    }
+    for count in [8, 255] {
+        rejected_contact(
+            44,
+            &[count],
+            &Invalid("contact.spring.count", 0, count.into()),
+        );
+    }
+    rejected_contact(44, &[4], &Short("contact.spring.points", 16, 12));
+    rejected_contact(44, &[2], &Long("contact", 53, 57));
+    // Point 0 is (10, 2.5) mm, point 1 (30, 5) mm.
+    for code in [10_000_u16, 9_999, 0] {
+        let wrong = Invalid("contact.spring.depth_m", 1, f64::from(code) / 1e6);
+        rejected_contact(49, &code.to_le_bytes(), &wrong);
+    }
+    for code in [2_499_u16, 0, 22_501] {
+        let wrong = Invalid("contact.spring.shape_m", 1, f64::from(code) / 1e6);
+        rejected_contact(51, &code.to_le_bytes(), &wrong);
+    }
 }

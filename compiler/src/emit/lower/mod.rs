@@ -158,6 +158,7 @@ pub fn lower(texture: &TextureModel, preview_png: Option<&[u8]>) -> Result<Lower
             effective_mass_kg: texture.gains.effective_mass_kg as f32,
             f_max_n: texture.gains.f_max_n as f32,
         },
+        contact: None,
         provenance: Some(formats::Provenance {
             generator: &provenance.generator,
             source: &provenance.source,
