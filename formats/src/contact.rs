@@ -147,7 +147,7 @@ impl<'a> ContactLaw<'a> {
                         "contact.spring.count",
                         0,
                         count as f64,
-                        "at most 7",
+                        "at most 6",
                     ));
                 }
                 reader.bytes("contact.spring.points", POINT_LEN * count)?
@@ -264,7 +264,7 @@ impl<'a> ContactLaw<'a> {
         Ok(())
     }
 
-    /// The points of the shape s, 0 to 7, in ascending order of depth. The first straight line comes
+    /// The points of the shape s, 0 to 6, in ascending order of depth. The first straight line comes
     /// from (0, 0), and the last one goes on. Without points s(e) = e.
     pub fn points(&self) -> impl ExactSizeIterator<Item = SpringPoint> + use<'a> {
         self.points

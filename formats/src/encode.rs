@@ -104,7 +104,7 @@ pub struct ContactParts<'a> {
     pub drag: Drag,
     /// The pull at release.
     pub adhesion: Adhesion,
-    /// Points of the spring's shape, 0 to 7.
+    /// Points of the spring's shape, 0 to 6.
     pub spring: &'a [SpringPoint],
 }
 

@@ -59,7 +59,7 @@ pub const MAX_STIFFNESS_N_M: f32 = 100_000.0;
 /// Largest rendered wall damping, N·s/m.
 pub const MAX_DAMPING_N_S_M: f32 = 1_000.0;
 /// Most points of a spring's shape.
-pub const MAX_SPRING_POINTS: usize = 7;
+pub const MAX_SPRING_POINTS: usize = 6;
 /// Largest damping that grows with the load, s/m.
 pub const MAX_LOAD_DAMPING_S_M: f32 = 100.0;
 /// Range of a time constant of relaxation, s.

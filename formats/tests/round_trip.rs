@@ -119,7 +119,7 @@ fn law() -> impl Strategy<Value = Vec<(u16, u16)>> {
 /// No contact law, or one whose parts are there or not.
 fn contact() -> impl Strategy<Value = Option<(ContactParts<'static>, Vec<SpringPoint>)>> {
     let number = 0.0_f32..1.0;
-    let steps = vec((1_u16..9000, 0.0_f64..=1.0), 0..=7);
+    let steps = vec((1_u16..9000, 0.0_f64..=1.0), 0..=6);
     let law = (vec(number, 11), any::<[bool; 4]>(), steps).prop_map(|(x, there, steps)| {
         let part = |part: usize, value: f32| if there[part] { value + 0.01 } else { 0.0 };
         let numbers = ContactParts {

@@ -5,8 +5,9 @@ use crate::{
     model::{barycentric::WeightSearch, mixture::RowMixture, section_pair::SectionProduct},
     range::Checked,
     stage::{
-        excitation::GaussianCubic, friction_law::FactorLookup, limiter::Shortening,
-        recursion::InnerProduct, sample_gate::Positions, velocity::Differences, wall::Pushing,
+        contact_law::ShapeLookup, excitation::GaussianCubic, friction_law::FactorLookup,
+        limiter::Shortening, recursion::InnerProduct, sample_gate::Positions,
+        velocity::Differences, wall::Pushing,
     },
 };
 
@@ -23,6 +24,7 @@ pub trait RenderArithmetic:
     + Shortening
     + Pushing
     + FactorLookup
+    + ShapeLookup
 {
 }
 

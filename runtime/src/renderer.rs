@@ -9,9 +9,10 @@ use crate::{
     render_arithmetic::RenderArithmetic,
     stage::{
         contact::{DistanceField, unit},
+        contact_law::ContactLaw,
         friction::Bristle,
         limiter::Limiter,
-        passivity::Passivity,
+        passivity::{Lowered, Passivity},
         sample_gate::Gate,
         tap::impact::Detector,
         velocity::VelocityEstimator,
@@ -31,7 +32,7 @@ pub struct Renderer<A: RenderArithmetic = Float> {
     pub(crate) velocity: VelocityEstimator<A>,
     pub(crate) bristle: Bristle<A>,
     pub(crate) detector: Detector<A>,
-    passivity: Passivity<A>,
+    pub(crate) passivity: Passivity<A>,
     pub(crate) limiter: Limiter<A>,
     /// The fraction of its way that a line spectrum goes in a cycle.
     pub(crate) following: Following<A>,
@@ -92,7 +93,7 @@ impl<A: RenderArithmetic> Renderer<A> {
             ),
             bristle: Bristle::new(&config.friction, delay_ticks, rate_hz),
             detector: Detector::new(&config.tap, rate_hz),
-            passivity: Passivity::new(&config.mechanics, rate_hz),
+            passivity: Passivity::new(&config.mechanics, config.limits.peak_n, rate_hz),
             limiter: Limiter::new(&config.limits, rate_hz),
             following: Following::new(constant_ticks),
             coupling_fraction: Quantity::of(fraction_after(1.0, constant_ticks)),
@@ -112,6 +113,19 @@ impl<A: RenderArithmetic> Renderer<A> {
     pub fn wall(&self, coupling: &formats::Coupling) -> Wall<A> {
         let asked = Wall::of(coupling.stiffness_n_m, coupling.damping_n_s_m);
         self.passivity.bear(asked)
+    }
+
+    /// The parts of a contact law that are rendered on the wall of an asset: the same where the device
+    /// can bear them, else lowered ones.
+    #[must_use]
+    pub fn contact_law(
+        &self,
+        coupling: &formats::Coupling,
+        law: &formats::ContactLaw<'_>,
+    ) -> Lowered<A> {
+        let mut prepared = ContactLaw::NONE;
+        prepared.load(Some(law), self.config.servo_rate_hz);
+        prepared.lowered(&self.passivity, self.wall(coupling))
     }
 
     /// A wall, lowered to what the device can bear.

@@ -335,6 +335,7 @@ impl<A: RenderArithmetic> SceneState<A> {
             None => nowhere(),
         };
         self.state.cross(&self.field);
+        self.crossing.forces.begin();
     }
 
     /// Index of the surface in contact after the last tick.

@@ -9,8 +9,9 @@ use crate::{
     },
     render_arithmetic::RenderArithmetic,
     stage::{
-        contact::DistanceField, friction::FrictionState, sample_gate::GateState, tap::TapState,
-        velocity::VelocityState, vibration::Vibration, wall::Wall,
+        contact::DistanceField, contact_law::ContactState, friction::FrictionState,
+        sample_gate::GateState, tap::TapState, velocity::VelocityState, vibration::Vibration,
+        wall::Wall,
     },
 };
 use core::mem::MaybeUninit;
@@ -27,6 +28,8 @@ pub struct State<A: RenderArithmetic = Float> {
     pub(crate) direction: StoredVector<A, Fraction>,
     pub(crate) tap: TapState<A>,
     pub(crate) friction: FrictionState<A>,
+    /// What the surface remembers, where it gives way.
+    pub(crate) contact: ContactState<A>,
     /// The last force, N.
     pub(crate) force: StoredVector<A, Newton>,
     /// The texture's wall, lowered to what the device can bear.
@@ -46,6 +49,7 @@ impl<A: RenderArithmetic> State<A> {
             direction: Vector::whole([1, 0, 0]).into(),
             tap: TapState::IDLE,
             friction: FrictionState::default(),
+            contact: ContactState::UNTOUCHED,
             force: StoredVector::ZERO,
             wall: Wall::NONE,
             counters: Counters::default(),
@@ -70,12 +74,14 @@ impl<A: RenderArithmetic> State<A> {
     pub(crate) fn cross(&mut self, field: &DistanceField<A>) {
         let contact = field.step(self.gate.position());
         self.tap.cross(contact.distance);
+        self.contact = ContactState::UNTOUCHED;
     }
 
     /// Changes to another texture on the same solid.
     #[cold]
     pub(crate) fn change_texture(&mut self, texture: u32, wall: Wall<A>) {
         self.vibration.change_texture(texture);
+        self.contact = ContactState::UNTOUCHED;
         self.wall = wall;
     }
 
@@ -85,6 +91,7 @@ impl<A: RenderArithmetic> State<A> {
         self.velocity = VelocityState::REST;
         self.vibration.silence();
         self.friction = FrictionState::default();
+        self.contact = ContactState::UNTOUCHED;
         self.tap.restart(distance);
     }
 }

@@ -1,7 +1,7 @@
 //! The way from one texture to the next while in contact.
 //!
-//! Wall, gains and friction go to the new texture as a one-pole, and so does the factor of a law of
-//! friction. The old vibration goes on until
+//! Wall, gains and friction go to the new texture as a one-pole, and so do the factor of a law of
+//! friction and the forces of a contact law. The old vibration goes on until
 //! the first model of the new texture is made. The new vibration then starts from silence, and the
 //! last output of the old one fades beside it. So no step of the force is larger than the steps of
 //! a texture by itself.
@@ -19,6 +19,7 @@ use crate::{
     sample::{Output, Sample},
     stage::{
         contact::DistanceField,
+        contact_law::{ContactState, ForceCrossing},
         friction_law::FactorCrossing,
         recursion::{Recursion, Sounded},
         upsample::Upsampler,
@@ -39,6 +40,8 @@ pub(crate) struct TextureChange<A: RenderArithmetic> {
     coupling: Coupling<A>,
     /// The factor of μ.
     factor: FactorCrossing<A>,
+    /// The forces of contact laws.
+    pub(crate) forces: ForceCrossing<A>,
     /// Recursion of the vibration at work.
     recursion: Recursion,
     /// Ticks that a sample of the vibration at work lasts.
@@ -58,6 +61,7 @@ impl<A: RenderArithmetic> TextureChange<A> {
     pub(crate) const START: Self = Self {
         coupling: Coupling::NONE,
         factor: FactorCrossing::START,
+        forces: ForceCrossing::START,
         recursion: Recursion::new(0, 0),
         ticks_per_sample: 1,
         heard: Quantity::ZERO,
@@ -157,17 +161,22 @@ impl<A: RenderArithmetic> Renderer<A> {
             wall: self.wall_of(&coupling),
         };
         let following = || self.following.of(&texture.plan);
+        if !state.vibration.is_on(texture.id()) {
+            state.contact = ContactState::UNTOUCHED;
+            crossing.forces.begin();
+        }
         crossing.prepare(&mut state.vibration, texture, following);
         let upsampler = texture.upsampler();
-        let mut factor = crossing.factor;
+        let (mut factor, mut forces) = (crossing.factor, crossing.forces);
         let mu = |speed| factor.of(coupling.mu, &texture.law, speed, fraction);
         let sound =
             |vibration: &mut Vibration<A>, sounding| crossing.sound(vibration, upsampler, sounding);
-        let output = self.force(touched, texture, state, sample, mu, sound);
-        crossing.factor = factor;
+        let mix = |force| forces.step(force, texture.contact.is_some(), fraction);
+        let output = self.force(touched, texture, state, sample, mu, mix, sound);
+        (crossing.factor, crossing.forces) = (factor, forces);
         state.vibration.query(
             texture,
-            Quantity(output.speed_mm_s),
+            Quantity(output.speed_mm_s) + state.contact.crunch,
             Quantity(output.normal_force_n),
         );
         crossing.touching = output.flags.contains(Flags::CONTACT);

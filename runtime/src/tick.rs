@@ -4,7 +4,8 @@
 //! F = F_n n̂ − F_t t̂ + F_vib t̂
 //! ```
 //!
-//! with F_n = kδ − bḋ + m_eff·a_tap, F_t ≤ μ(v)·kδ and F_vib = g_vib·F_max·y\[n\]: the paper's
+//! with F_n = kδ − bḋ + m_eff·a_tap, F_t ≤ μ(v)·kδ (or what a [contact law](crate::stage::contact_law)
+//! makes of both) and F_vib = g_vib·F_max·y\[n\]: the paper's
 //! force equation, with damping added to the wall and a bristle to the friction. A tick sums the
 //! stages in this order; each is a file in [`stage`](crate::stage).
 //!
@@ -25,7 +26,13 @@ use crate::{
     render_arithmetic::RenderArithmetic,
     renderer::Renderer,
     sample::{Output, Sample},
-    stage::{contact::DistanceField, recursion::Sounded, vibration::Vibration, wall::Wall},
+    stage::{
+        contact::DistanceField,
+        contact_law::{Pressing, SurfaceForce},
+        recursion::Sounded,
+        vibration::Vibration,
+        wall::{NormalForce, Wall},
+    },
     state::State,
     texture::Texture,
 };
@@ -63,20 +70,20 @@ impl<A: RenderArithmetic> Renderer<A> {
             vibration.sound(recursion, upsampler, sounding)
         };
         let mu = |speed| texture.friction_at(speed);
-        let output = self.force(touched, texture, state, sample, mu, sound);
+        let output = self.force(touched, texture, state, sample, mu, |force| force, sound);
         if state.vibration.takes_query() {
             state.wall = self.wall_of(&texture.coupling);
         }
         state.vibration.query(
             texture,
-            Quantity(output.speed_mm_s),
+            Quantity(output.speed_mm_s) + state.contact.crunch,
             Quantity(output.normal_force_n),
         );
         output
     }
 
-    /// The force equation on what is touched. `mu` gives μ at a speed; `sound` steps the vibration;
-    /// its flag says whether it may be heard.
+    /// The force equation on what is touched. `mu` gives μ at a speed; `mix` adds what remains of
+    /// another surface; `sound` steps the vibration, and its flag says whether it may be heard.
     #[inline(always)]
     pub(crate) fn force<S: Capacity>(
         &self,
@@ -85,6 +92,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         state: &mut State<A>,
         sample: &Sample<A>,
         mu: impl FnOnce(Quantity<A, MillimetrePerSecond>) -> Quantity<A, FrictionCoefficient>,
+        mix: impl FnOnce(SurfaceForce<A>) -> SurfaceForce<A>,
         sound: impl FnOnce(&mut Vibration<A>, bool) -> Sounded<A>,
     ) -> Output<A> {
         let Touched {
@@ -92,6 +100,7 @@ impl<A: RenderArithmetic> Renderer<A> {
             coupling,
             wall,
         } = touched;
+        let law = &texture.contact;
 
         // Where the stylus is, and how it moves: δ, n̂, v, t̂.
         let gated = self.gate.step(&mut state.gate, sample);
@@ -109,19 +118,40 @@ impl<A: RenderArithmetic> Renderer<A> {
             contact.distance - state.tap.distance(),
             gated.elapsed_ticks,
         );
-        let speed = velocity.slide(normal, &mut state.direction)
-            * Quantity::<A, MillimetrePerMetre>::whole(1000);
+        let slide = velocity.slide(normal, &mut state.direction);
+        let speed = slide * Quantity::<A, MillimetrePerMetre>::whole(1000);
         let mu = mu(speed);
 
-        // F_n n̂: the wall. Its spring is the load.
-        let normal_force = wall.step(depth, velocity.outward);
-        let load = normal_force.spring;
+        // F_n n̂: the wall, or a contact law in its place. Its elastic part is the load.
+        let surface = if law.is_some() {
+            let before = (-state.tap.distance()).max(Quantity::ZERO);
+            let tip = Pressing {
+                before,
+                depth,
+                outward: velocity.outward,
+                speed: slide,
+                elapsed_ticks: gated.elapsed_ticks,
+            };
+            law.step(&self.passivity, wall, &mut state.contact, tip)
+        } else {
+            let NormalForce { spring, total } = wall.step(depth, velocity.outward);
+            SurfaceForce {
+                load: spring,
+                total,
+                drag: Quantity::ZERO,
+            }
+        };
+        let SurfaceForce { load, total, drag } = mix(surface);
         flags = flags.union(Flags::OUTSIDE_GRID.when(texture.is_outside(speed, load)));
 
-        // F_t: friction of the load.
+        // F_t: friction of the load, and drag.
+        let (grip, limit) = (load + drag, mu * load + drag);
         let friction = self
             .bristle
-            .step(&mut state.friction, gated.motion, normal, load, mu);
+            .step(&mut state.friction, gated.motion, normal, grip, limit);
+        if law.is_some() {
+            law.heal(&mut state.contact, friction.slip, friction.size, load);
+        }
         let friction_force = friction.direction * friction.size;
 
         // The tap's part of F_n.
@@ -142,12 +172,11 @@ impl<A: RenderArithmetic> Renderer<A> {
         };
 
         // The sum, lowered by the gate and limited to what the device allows.
-        let total =
-            normal * (normal_force.total + tap_force) + axis * vibration_force - friction_force;
+        let sum = normal * (total + tap_force) + axis * vibration_force - friction_force;
         let wanted = if flags.intersects(Flags::LOWERED) {
-            total * gated.gain
+            sum * gated.gain
         } else {
-            total
+            sum
         };
         let (force, limited) = self.limiter.step(state.force.get(), wanted.settled());
         state.force = force.into();

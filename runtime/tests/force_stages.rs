@@ -160,7 +160,7 @@ fn a_wall_is_lowered_to_the_bound_of_its_device() {
             };
             let rate = [1000.0, 2000.0, 4000.0][n % 3];
             let (asked_k, asked_b) = (draw.range(10.0, 1500.0), draw.range(0.0, 1.0));
-            let passivity = Passivity::<A>::new(&mechanics, rate as f32);
+            let passivity = Passivity::<A>::new(&mechanics, 3.3, rate as f32);
             let wall = passivity.bear(Wall::of(asked_k as f32, asked_b as f32));
             let (v, step) = (
                 f64::from(mechanics.fastest_m_s),

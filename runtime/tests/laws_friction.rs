@@ -41,7 +41,7 @@ impl Axis {
             Vector::of([motion_m, 0.0, 0.0]),
             Vector::of([0.0, 0.0, 1.0]),
             Quantity::of(normal_n as f32),
-            Quantity::of(self.mu),
+            Quantity::of(self.mu * normal_n as f32),
         );
         f64::from(friction.force().values()[0])
     }

@@ -49,6 +49,10 @@ products! {
     NewtonPerMetre * Metre = Newton, at most STRONGEST_N;
     NewtonPerMetre * Second = NewtonSecondPerMetre, at most 16_384.0;
     NewtonSecondPerMetre * MetrePerSecond = Newton, at most STRONGEST_N;
+    SecondPerMetre * Newton = NewtonSecondPerMetre, at most 16_384.0;
+    NewtonSecondPerMetre * PerNewton = SecondPerMetre, at most 2000.0;
+    NewtonSecondPerSquareMetre * MetrePerSecond = NewtonPerMetre, at most 500_000.0;
+    MetrePerSecond * Second = Metre, at most 1.0;
     FrictionCoefficient * FrictionFactor = FrictionCoefficient, at most 10.0;
     FrictionCoefficient * Newton = Newton;
     Newton * MetrePerNewton = Metre, at most 1.0;

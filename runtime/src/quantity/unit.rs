@@ -7,7 +7,7 @@
 
 use crate::arithmetic::Point;
 use core::fmt::Debug;
-use fixed::types::extra::{U10, U12, U15, U16, U19, U20, U22, U24, U28, U30};
+use fixed::types::extra::{U10, U12, U15, U16, U19, U20, U22, U24, U25, U28, U30};
 
 /// The unit of a quantity.
 pub trait Unit: Copy + Debug + Default + PartialEq + 'static {
@@ -37,6 +37,10 @@ units! {
     MillimetrePerSecond      U15 "Speeds as the grid has them, mm/s: ±65,536 mm/s, 0.03 µm/s.";
     Newton                   U16 "Forces, N: ±32,768 N, 15 µN.";
     FineNewton               U19 "Forces beside a leak that is a tenth of a millinewton at 10 kHz, N: ±4,096 N, 2 µN.";
+    RelaxingNewton           U25 "Force of a Maxwell branch, which relaxes by a millionth of it in a tick, N: ±64 N, 30 nN.";
+    PerNewton                U20 "Reciprocals of forces, 1/N: ±2,048, 10⁻⁶.";
+    SecondPerMetre           U20 "Damping over load, s/m: ±2,048 s/m, 1 µs/m.";
+    NewtonSecondPerSquareMetre U12 "Viscous drag over depth, N·s/m²: ±524,288 N·s/m², 0.24 mN·s/m².";
     NewtonPerMetre           U12 "Stiffness of a wall, N/m: ±524,288 N/m, 0.24 mN/m.";
     BristleNewtonPerMetre    U12 "Stiffness of the bristle of friction, N/m: ±524,288 N/m, 0.24 mN/m.";
     MetrePerNewton           U30 "Compliance of the bristle, m/N: ±2 m/N, 1 nm/N.";
@@ -67,6 +71,7 @@ units! {
 pub trait ConvertTo<U: Unit>: Unit {}
 
 impl ConvertTo<FineNewton> for Newton {}
+impl ConvertTo<Newton> for RelaxingNewton {}
 impl ConvertTo<Coordinate> for MillimetrePerSecond {}
 impl ConvertTo<Coordinate> for Newton {}
 impl ConvertTo<LineCosine> for Coefficient {}

@@ -34,10 +34,7 @@ use crate::{
     math::max,
     quantity::{
         Magnitude, Magnitudes, Quantity, StoredVector, Vector,
-        unit::{
-            BristleNewtonPerMetre, FineNewton, Fraction, FrictionCoefficient, Metre,
-            MetrePerNewton, Newton,
-        },
+        unit::{BristleNewtonPerMetre, FineNewton, Fraction, Metre, MetrePerNewton, Newton},
     },
 };
 
@@ -96,6 +93,8 @@ pub struct Friction<A: Arithmetic = Float> {
     pub direction: Vector<A, Fraction>,
     /// Size, N.
     pub size: Quantity<A, Newton>,
+    /// How far the root slipped or crept, m.
+    pub slip: Quantity<A, Metre>,
 }
 
 impl<A: Magnitudes> Friction<A> {
@@ -107,32 +106,33 @@ impl<A: Magnitudes> Friction<A> {
 }
 
 impl<A: Magnitudes> Bristle<A> {
-    /// Advances by a tick: `motion` is the displacement since the last one, m, `normal` n̂, `load`
-    /// F_n, N, 0 out of contact, and `mu` μ.
+    /// Advances by a tick: `motion` is the displacement since the last one, m, `normal` n̂, `grip`
+    /// F_n, N, 0 out of contact, with what drag adds, and `limit` the largest friction, N: μF_n and
+    /// the drag.
     #[inline(always)]
     pub fn step(
         &self,
         state: &mut FrictionState<A>,
         motion: Vector<A, Metre>,
         normal: Vector<A, Fraction>,
-        load: Quantity<A, Newton>,
-        mu: Quantity<A, FrictionCoefficient>,
+        grip: Quantity<A, Newton>,
+        limit: Quantity<A, Newton>,
     ) -> Friction<A> {
         let deflection = (state.deflection.get() + motion)
             .tangential(normal)
             .settled();
         let magnitude = Magnitude::above_zero(deflection);
-        let limit = mu * load;
 
         // Leak and slip: without a load nothing is kept.
-        let fine = load.to::<FineNewton>();
+        let fine = grip.to::<FineNewton>();
         let leaked = fine.over(fine + self.leak);
         let reach = limit * self.compliance + self.dead_zone;
         let kept = magnitude.divides(reach).min(leaked);
         state.deflection = (deflection * kept).into();
 
         // The kept length, from the length alone: the inverse is known later.
-        let stretch = (magnitude.length() * leaked).min(reach) - self.dead_zone;
+        let length = magnitude.length();
+        let stretch = (length * leaked).min(reach) - self.dead_zone;
         let held = self.stiffness * stretch;
         let most = (Quantity::<A, Fraction>::of(0.5) * held).min(limit - held);
         // The deflection lies in the plane: a motion out of it adds nothing.
@@ -143,6 +143,7 @@ impl<A: Magnitudes> Bristle<A> {
         Friction {
             direction: deflection.direction(magnitude),
             size: held + lead,
+            slip: length - length * kept,
         }
     }
 }
@@ -166,7 +167,7 @@ mod tests {
             motion,
             normal,
             Quantity::of(load_n),
-            Quantity::of(mu),
+            Quantity::of(mu * load_n),
         );
         friction.force().values()
     }

@@ -19,6 +19,7 @@
 //! ([`velocity_cutoff_hz`](crate::Config::velocity_cutoff_hz)), and below μ(v)·v_c the leak of the
 //! bristle makes steady friction grow with speed.
 
+use super::table::Table;
 use crate::{
     arithmetic::{Arithmetic, Fixed, Float, Scalar as _},
     quantity::{
@@ -26,51 +27,30 @@ use crate::{
         unit::{Fraction, FrictionCoefficient, FrictionFactor, MillimetrePerSecond},
     },
 };
-use asperity_formats::{self as formats, LawPoint, limits::MAX_LAW_POINTS};
+use asperity_formats as formats;
 
 /// A difference of factors below this is none: 10 µN at 10 N.
 const SMALLEST_REMAINDER: f32 = 1e-6;
-/// Bits of a speed behind those of its code.
-const FINE_BITS: u32 = 8;
 
-/// The table of factors, or none. It takes 32 bytes.
+/// The table of factors over speeds, 1/16 mm/s and 1/8192, or none.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct FrictionLaw {
-    /// Ascending, 1/16 mm/s; the highest speed behind the last point. All are 0 without a law.
-    speeds: [u16; MAX_LAW_POINTS],
-    /// 1/8192; behind the last point that of the last point.
-    factors: [u16; MAX_LAW_POINTS],
-}
+pub(crate) struct FrictionLaw(Table);
 
 impl FrictionLaw {
     /// Friction that does not depend on speed.
-    pub(crate) const NONE: Self = Self {
-        speeds: [0; MAX_LAW_POINTS],
-        factors: [0; MAX_LAW_POINTS],
-    };
+    pub(crate) const NONE: Self = Self(Table::NONE);
 
     /// Takes the law of an asset, in place.
-    #[inline(never)]
     pub(crate) fn load(&mut self, law: Option<formats::FrictionLaw<'_>>) {
-        *self = Self::NONE;
-        let Some(law) = law else {
-            return;
-        };
-        let mut points = law.points();
-        let mut last = LawPoint::default();
-        for (speed, factor) in self.speeds.iter_mut().zip(&mut self.factors) {
-            last = points.next().unwrap_or(LawPoint {
-                speed_code: u16::MAX,
-                ..last
-            });
-            (*speed, *factor) = (last.speed_code, last.factor_code);
-        }
+        let points = law.into_iter().flat_map(|law| law.points());
+        self.0
+            .load(points.map(|point| (point.speed_code, point.factor_code)));
     }
 
-    /// Returns true if there is a law. Its speeds ascend, so the last one is above 0.
+    /// Returns true if there is a law.
     #[inline(always)]
     pub(crate) const fn is_some(&self) -> bool {
-        self.speeds[MAX_LAW_POINTS - 1] != 0
+        self.0.is_some()
     }
 
     /// μ(v) where μ is `mu`. Most textures have no law, and pay for one test.
@@ -94,28 +74,7 @@ impl FrictionLaw {
         &self,
         speed: Quantity<A, MillimetrePerSecond>,
     ) -> Quantity<A, FrictionFactor> {
-        A::factor(self.at(A::fine_speed(speed)))
-    }
-
-    /// The factor, 2⁻²⁹, at a speed, 1/4096 mm/s.
-    fn at(&self, fine: u32) -> u32 {
-        let fine_of = |code: u16| u32::from(code) << FINE_BITS;
-        let passed = (self.speeds.iter())
-            .map(|&speed| usize::from(fine_of(speed) <= fine))
-            .sum::<usize>();
-        let (low, high) = (passed.saturating_sub(1), passed.min(MAX_LAW_POINTS - 1));
-        let place = |index: usize| {
-            let index = index % MAX_LAW_POINTS;
-            (self.speeds[index], u32::from(self.factors[index]))
-        };
-        let ((from, below), (to, above)) = (place(low), place(high));
-        // Outside the points both places are one, and the division by 0 gives none.
-        let beyond = fine.saturating_sub(fine_of(from)) << FINE_BITS;
-        let part = beyond
-            .checked_div(u32::from(to.saturating_sub(from)))
-            .unwrap_or(0);
-        // The part is below 1 << 16, so the sum stays below 1 << 32.
-        below * ((1 << 16) - part) + above * part
+        A::factor(self.0.at(A::fine_speed(speed)))
     }
 }
 
@@ -245,13 +204,7 @@ mod tests {
 
     fn law(points: &[(u16, u16)]) -> FrictionLaw {
         let mut law = FrictionLaw::NONE;
-        law.speeds = [u16::MAX; MAX_LAW_POINTS];
-        for (index, slot) in law.factors.iter_mut().enumerate() {
-            *slot = points[index.min(points.len() - 1)].1;
-        }
-        for (slot, (speed, _)) in law.speeds.iter_mut().zip(points) {
-            *slot = *speed;
-        }
+        law.0.load(points.iter().copied());
         law
     }
 

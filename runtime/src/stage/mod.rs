@@ -5,6 +5,7 @@
 //! whatever its input.
 
 pub mod contact;
+pub(crate) mod contact_law;
 pub mod excitation;
 pub mod friction;
 pub(crate) mod friction_law;
@@ -12,6 +13,7 @@ pub mod limiter;
 pub mod passivity;
 pub mod recursion;
 pub mod sample_gate;
+pub(crate) mod table;
 pub mod tap;
 pub(crate) mod upsample;
 pub mod velocity;

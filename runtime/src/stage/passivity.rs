@@ -12,7 +12,9 @@
 //! ```
 //!
 //! A wall within the bound is rendered as the asset says. Beyond it damping goes first, since
-//! stiffness is what a wall is felt by, then stiffness as far as the bound asks.
+//! stiffness is what a wall is felt by, then stiffness as far as the bound asks. Of a contact law K
+//! is the spring's steepest slope, the Maxwell branch's and adhesion's together, and B the damping at
+//! the greatest force of the device.
 
 use super::wall::Wall;
 use crate::{
@@ -21,7 +23,7 @@ use crate::{
     math::min,
     quantity::{
         Quantity,
-        unit::{NewtonPerMetre, NewtonSecondPerMetre, Second},
+        unit::{NewtonPerMetre, NewtonSecondPerMetre, PerNewton, Second, SecondPerMetre},
     },
 };
 
@@ -34,12 +36,29 @@ pub struct Passivity<A: Arithmetic = Float> {
     stiffness_cost: Quantity<A, Second>,
     /// The largest stiffness, N/m.
     stiffest: Quantity<A, NewtonPerMetre>,
+    /// 1 over the greatest force of the device, 1/N.
+    per_peak: Quantity<A, PerNewton>,
+    /// The servo period, s.
+    period: Quantity<A, Second>,
+}
+
+/// A wall and a [contact law](super::contact_law) on it: what counts of them against the bound.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lowered<A: Arithmetic = Float> {
+    /// The wall, with the steepest slope of the spring.
+    pub wall: Wall<A>,
+    /// Stiffness k₁ of the Maxwell branch, N/m.
+    pub relaxing: Quantity<A, NewtonPerMetre>,
+    /// Stiffness k_a of adhesion, N/m.
+    pub sticking: Quantity<A, NewtonPerMetre>,
+    /// Damping λ over the load, s/m.
+    pub damping: Quantity<A, SecondPerMetre>,
 }
 
 impl<A: Arithmetic> Passivity<A> {
-    /// The bound of a device in a loop at `rate_hz`.
+    /// The bound of a device of a peak force in a loop at `rate_hz`.
     #[must_use]
-    pub fn new(mechanics: &MechanicsConfig, rate_hz: f32) -> Self {
+    pub fn new(mechanics: &MechanicsConfig, peak_n: f32, rate_hz: f32) -> Self {
         let (coulomb_n, step_m) = (mechanics.coulomb_n, mechanics.position_step_m);
         let per_speed = 1.0 / mechanics.fastest_m_s;
         let budget_n_s_m = mechanics.damping_n_s_m + coulomb_n * per_speed;
@@ -55,6 +74,8 @@ impl<A: Arithmetic> Passivity<A> {
             damping: Quantity::of(budget_n_s_m * damping_part),
             stiffness_cost: Quantity::of(stiffness_cost_s * damping_part),
             stiffest: Quantity::of(min(budget_n_s_m / stiffness_cost_s, quantised_n_m)),
+            per_peak: Quantity::of(1.0 / peak_n),
+            period: Quantity::of(1.0 / rate_hz),
         }
     }
 
@@ -68,6 +89,34 @@ impl<A: Arithmetic> Passivity<A> {
             stiffness,
             damping: left.clamp_from_zero(wall.damping),
         }
+    }
+
+    /// The nearest passive law on a wall that is passive. The spring keeps what it has; then come
+    /// relaxation, adhesion, the wall's damping, and the damping over the load at the greatest force.
+    #[inline]
+    #[must_use]
+    pub fn lower(&self, asked: Lowered<A>) -> Lowered<A> {
+        let left = (self.stiffest - asked.wall.stiffness).max(Quantity::ZERO);
+        let relaxing = asked.relaxing.min(left);
+        let sticking = asked.sticking.min(left - relaxing);
+        let stiffness = asked.wall.stiffness + relaxing + sticking;
+        let left = (self.damping - stiffness * self.stiffness_cost).max(Quantity::ZERO);
+        let damping = asked.wall.damping.min(left);
+        Lowered {
+            wall: Wall {
+                damping,
+                ..asked.wall
+            },
+            relaxing,
+            sticking,
+            damping: asked.damping.min((left - damping) * self.per_peak),
+        }
+    }
+
+    /// The servo period, s.
+    #[inline(always)]
+    pub(crate) const fn period(&self) -> Quantity<A, Second> {
+        self.period
     }
 }
 
@@ -84,7 +133,7 @@ mod tests {
             position_step_m: 0.0,
             delay_ticks,
         };
-        Passivity::new(&mechanics, 1000.0)
+        Passivity::new(&mechanics, 3.3, 1000.0)
     }
 
     /// Colgate at 1 kHz: 500 N/m asks for 0.25 N·s/m, with one more tick 0.75.
@@ -112,7 +161,7 @@ mod tests {
     #[test]
     fn the_default_device_bears_the_default_wall() {
         let config = Config::default();
-        let wall = Passivity::<Float>::new(&config.mechanics, config.servo_rate_hz)
+        let wall = Passivity::<Float>::new(&config.mechanics, 3.3, config.servo_rate_hz)
             .bear(Wall::of(500.0, 0.1));
         assert_eq!(wall, Wall::of(500.0, 0.1));
     }
@@ -124,7 +173,7 @@ mod tests {
             ..Config::default().mechanics
         };
         assert_eq!(
-            Passivity::<Float>::new(&mechanics, 1000.0)
+            Passivity::<Float>::new(&mechanics, 3.3, 1000.0)
                 .bear(Wall::of(500.0, 0.1))
                 .stiffness
                 .value(),

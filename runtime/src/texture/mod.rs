@@ -21,6 +21,7 @@ use crate::{
         unit::{FrictionCoefficient, MillimetrePerSecond, Newton},
     },
     stage::{
+        contact_law::ContactLaw,
         friction_law::{FactorLookup, FrictionLaw},
         recursion::{InnerProduct, Recursion},
         tap::interpolation::TapBank,
@@ -42,6 +43,7 @@ pub struct Texture<S: Capacity = HostCapacities, A: WeightSearch = Float> {
     pub(crate) taps: TapBank<S, A>,
     pub(crate) coupling: Coupling<A>,
     pub(crate) law: FrictionLaw,
+    pub(crate) contact: ContactLaw<A>,
     id: u32,
     recursion: Recursion,
     upsampler: Upsampler<A>,
@@ -68,6 +70,7 @@ impl<S: Capacity, A: WeightSearch + RowMixture + SectionProduct + InnerProduct> 
         taps: TapBank::EMPTY,
         coupling: Coupling::NONE,
         law: FrictionLaw::NONE,
+        contact: ContactLaw::NONE,
         id: 0,
         recursion: Recursion::new(0, 0),
         upsampler: Upsampler::NONE,
@@ -97,6 +100,7 @@ impl<S: Capacity, A: WeightSearch + RowMixture + SectionProduct + InnerProduct> 
         self.taps = TapBank::EMPTY;
         self.coupling = Coupling::NONE;
         self.law = FrictionLaw::NONE;
+        self.contact = ContactLaw::NONE;
         self.id = 0;
         self.recursion = Recursion::new(0, 0);
         self.upsampler = Upsampler::NONE;

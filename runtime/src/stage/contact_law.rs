@@ -1,0 +1,467 @@
+//! The contact law of a material that gives way: what takes the wall's place where an asset has one.
+//!
+//! With δ the depth below the undeformed surface, p the imprint and e = max(δ − p, 0):
+//!
+//! ```text
+//! F_el = max(k·s(e) + q, 0)                  load: a spring of shape s, and a Maxwell branch
+//! q'   = a·q + k₁·g·Δe                       a = exp(−T/τ), g = (1 − a)·τ/T: exact for a steady motion
+//! p'   = max(p, χ·(δ − e_y))                 imprint, and it heals with slip or recovers in the open
+//! F_n  = max(F_el − (b + λ·F_el)·ḋ, 0) − u   damping after Hunt and Crossley, less adhesion's pull
+//! u'   = clamp(u − k_a·Δe, 0, min(A, k_a·e))
+//! F_t ≤ μ(v)·F_el + (c·v + w)·δ              drag raises the limit of the bristle
+//! ```
+//!
+//! **No part gives energy off**, as far as a sampled spring does not ([`passivity`](super::passivity),
+//! which counts k + k₁ + k_a and the damping at the device's greatest force). The spring stores; the
+//! branch and the pull are springs in series with what only loses. The imprint grows only while the
+//! spring is beyond its yield, which loses; it heals by h a metre of slip only while friction is h
+//! times the load at least, so that the friction pays for what lifts the tip; and it recovers only
+//! where there is no load. Drag is nothing but the limit at which the bristle slips.
+//!
+//! **At rest** nothing moves: imprint and pull change with motion alone. In the open every number
+//! goes to zero, exactly.
+
+use super::{
+    passivity::{Lowered, Passivity},
+    table::Table,
+    wall::{Pushing, Wall},
+};
+use crate::{
+    arithmetic::{Arithmetic, Cut, Fixed, Float, Scalar as _},
+    math::exp,
+    quantity::{
+        Quantity,
+        unit::{
+            Fraction, Metre, MetrePerSecond, MillimetrePerMetre, MillimetrePerSecond, Newton,
+            NewtonPerMetre, NewtonSecondPerMetre, NewtonSecondPerSquareMetre, RelaxingNewton,
+            SecondPerMetre,
+        },
+    },
+};
+use asperity_formats as formats;
+
+/// The greatest force of a Maxwell branch, N.
+const STRONGEST_N: f32 = 30.0;
+/// A branch weaker than this, N, is relaxed in the open.
+const WEAKEST_N: f32 = 4.0e-3;
+/// An imprint shallower than this, m, is none in the open: half a count of a Touch.
+const SHALLOWEST_M: f32 = 20.0e-6;
+/// Metres of imprint that a metre of travel in the open leaves behind: four depths away the surface
+/// is fresh.
+const FRESH: f32 = 0.25;
+/// A remainder of another surface's force below this, N, is none.
+const SMALLEST_REMAINDER_N: f32 = 1.0e-4;
+/// Yielding slower than this, mm/s, is silent.
+const SLOWEST_MM_S: f32 = 0.1;
+/// The part of the speed of yielding that is left a tick later, where nothing yields.
+const CRUNCH: f32 = 0.9375;
+
+/// The law of a texture, or none, prepared for a servo rate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ContactLaw<A: Arithmetic> {
+    /// s(e), µm; none for s(e) = e.
+    shape: Table,
+    /// λ.
+    damping: Quantity<A, SecondPerMetre>,
+    /// k₁.
+    relaxing: Quantity<A, NewtonPerMetre>,
+    /// 1 − a.
+    relaxes: Quantity<A, Fraction>,
+    /// g; 1 without a branch, 0 without a law.
+    held: Quantity<A, Fraction>,
+    /// e_y.
+    yields: Quantity<A, Metre>,
+    /// χ.
+    share: Quantity<A, Fraction>,
+    /// h.
+    heals: Quantity<A, Fraction>,
+    /// 1 − exp(−T/τ_p); 0 for never.
+    recovers: Quantity<A, Fraction>,
+    /// c.
+    viscous: Quantity<A, NewtonSecondPerSquareMetre>,
+    /// w.
+    plough: Quantity<A, NewtonPerMetre>,
+    /// A.
+    pull: Quantity<A, Newton>,
+    /// k_a.
+    sticking: Quantity<A, NewtonPerMetre>,
+}
+
+/// State of a [`ContactLaw`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ContactState<A: Arithmetic> {
+    /// q, N.
+    relaxing: Quantity<A, RelaxingNewton>,
+    /// p, m.
+    imprint: Quantity<A, Metre>,
+    /// u, N.
+    pull: Quantity<A, Newton>,
+    /// Speed with which the surface yields, mm/s: grains crunch.
+    pub(crate) crunch: Quantity<A, MillimetrePerSecond>,
+}
+
+/// Motion of the tip, as a law sees it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pressing<A: Arithmetic> {
+    /// δ a tick ago, m.
+    pub(crate) before: Quantity<A, Metre>,
+    /// δ, m.
+    pub(crate) depth: Quantity<A, Metre>,
+    /// ḋ, away from the surface, m/s.
+    pub(crate) outward: Quantity<A, MetrePerSecond>,
+    /// Along the surface, m/s.
+    pub(crate) speed: Quantity<A, MetrePerSecond>,
+    /// Periods since the last tick, 1 to 3.
+    pub(crate) elapsed_ticks: u32,
+}
+
+/// The forces of a surface, N.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SurfaceForce<A: Arithmetic> {
+    /// F_el, at least 0.
+    pub(crate) load: Quantity<A, Newton>,
+    /// Along the normal.
+    pub(crate) total: Quantity<A, Newton>,
+    /// What drag adds to the limit of friction.
+    pub(crate) drag: Quantity<A, Newton>,
+}
+
+impl<A: Arithmetic> SurfaceForce<A> {
+    /// No contact.
+    pub(crate) const NONE: Self = Self {
+        load: Quantity::ZERO,
+        total: Quantity::ZERO,
+        drag: Quantity::ZERO,
+    };
+}
+
+impl<A: Arithmetic> ContactState<A> {
+    /// An untouched surface.
+    pub(crate) const UNTOUCHED: Self = Self {
+        relaxing: Quantity::ZERO,
+        imprint: Quantity::ZERO,
+        pull: Quantity::ZERO,
+        crunch: Quantity::ZERO,
+    };
+}
+
+impl<A: Arithmetic> ContactLaw<A> {
+    /// A wall.
+    pub(crate) const NONE: Self = Self {
+        shape: Table::NONE,
+        damping: Quantity::ZERO,
+        relaxing: Quantity::ZERO,
+        relaxes: Quantity::ZERO,
+        held: Quantity::ZERO,
+        yields: Quantity::ZERO,
+        share: Quantity::ZERO,
+        heals: Quantity::ZERO,
+        recovers: Quantity::ZERO,
+        viscous: Quantity::ZERO,
+        plough: Quantity::ZERO,
+        pull: Quantity::ZERO,
+        sticking: Quantity::ZERO,
+    };
+
+    /// Takes the law of an asset, in place.
+    #[inline(never)]
+    pub(crate) fn load(&mut self, law: Option<&formats::ContactLaw<'_>>, rate_hz: f32) {
+        *self = Self::NONE;
+        let Some(law) = law else {
+            return;
+        };
+        self.shape.load(shape(law));
+        self.held = Quantity::whole(1);
+        self.damping = Quantity::of(law.damping_s_m).settled();
+        let relaxation = &law.relaxation;
+        if relaxation.stiffness_n_m > 0.0 {
+            let ticks = relaxation.time_s * rate_hz;
+            let relaxes = decay(1.0 / ticks);
+            self.relaxing = Quantity::of(relaxation.stiffness_n_m).settled();
+            self.relaxes = Quantity::of(relaxes);
+            self.held = Quantity::of(relaxes * ticks);
+        }
+        let imprint = &law.imprint;
+        self.yields = Quantity::of(imprint.yield_m).settled();
+        self.share = Quantity::of(imprint.share).settled();
+        self.heals = Quantity::of(imprint.heal).settled();
+        if imprint.recovery_s > 0.0 {
+            self.recovers = Quantity::of(decay(1.0 / (imprint.recovery_s * rate_hz)));
+        }
+        self.viscous = Quantity::of(law.drag.viscous_n_s_m2).settled();
+        self.plough = Quantity::of(law.drag.plough_n_m).settled();
+        self.pull = Quantity::of(law.adhesion.pull_n).settled();
+        self.sticking = Quantity::of(law.adhesion.stiffness_n_m).settled();
+    }
+
+    /// Returns true if there is a law.
+    #[inline(always)]
+    pub(crate) fn is_some(&self) -> bool {
+        self.held != Quantity::ZERO
+    }
+
+    /// The law that a device renders on a wall that it bears.
+    #[inline]
+    pub(crate) fn lowered(&self, passivity: &Passivity<A>, wall: Wall<A>) -> Lowered<A> {
+        passivity.lower(Lowered {
+            wall,
+            relaxing: self.relaxing,
+            sticking: self.sticking,
+            damping: self.damping,
+        })
+    }
+
+    /// An imprint heals with a slip along the surface, m, that friction, N, pays for.
+    #[inline]
+    pub(crate) fn heal(
+        &self,
+        state: &mut ContactState<A>,
+        slip: Quantity<A, Metre>,
+        friction: Quantity<A, Newton>,
+        load: Quantity<A, Newton>,
+    ) {
+        if friction >= self.heals * load {
+            state.imprint = (state.imprint - self.heals * slip).max(Quantity::ZERO);
+        }
+    }
+}
+
+impl<A: ShapeLookup + Pushing> ContactLaw<A> {
+    /// Advances by a tick on a wall that the device bears.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn step(
+        &self,
+        passivity: &Passivity<A>,
+        wall: Wall<A>,
+        state: &mut ContactState<A>,
+        tip: Pressing<A>,
+    ) -> SurfaceForce<A> {
+        let zero = Quantity::ZERO;
+        let lowered = self.lowered(passivity, wall);
+
+        // What yields; then how far the elastic depth has changed.
+        let before = (tip.before - state.imprint).max(zero);
+        let yielded = self.share * (tip.depth - self.yields);
+        if yielded > state.imprint {
+            let inward = -tip.outward.min(Quantity::ZERO);
+            state.imprint = yielded;
+            state.crunch = inward * Quantity::<A, MillimetrePerMetre>::whole(1000);
+        } else {
+            let left = Quantity::<A, Fraction>::of(CRUNCH) * state.crunch;
+            state.crunch = left.above(Quantity::of(SLOWEST_MM_S));
+        }
+        let elastic = (tip.depth - state.imprint).max(zero);
+        let deeper = elastic - before;
+
+        // The branch, period by period.
+        let ticks = tip.elapsed_ticks.clamp(1, 3);
+        let part = Quantity::<A, Fraction>::of([1.0, 0.5, 1.0 / 3.0][ticks as usize - 1]);
+        let held = self.held * (part * deeper);
+        let taken = Quantity::<A, RelaxingNewton>::sum_of_products(
+            [(lowered.relaxing, held)],
+            Cut::At(STRONGEST_N),
+        );
+        let strongest = Quantity::of(STRONGEST_N);
+        for _ in 0..ticks {
+            let relaxed = state.relaxing - (self.relaxes * state.relaxing).settled() + taken;
+            state.relaxing = relaxed.min(strongest).max(-strongest).settled();
+        }
+        if !(tip.depth > zero) {
+            return self.recover(passivity, state, &tip);
+        }
+
+        // Load, damping, pull and drag.
+        let spring = lowered.wall.stiffness * self.shape_at(elastic);
+        let load = (spring + state.relaxing.to::<Newton>()).max(Quantity::ZERO);
+        let load = if elastic > zero { load } else { Quantity::ZERO };
+        let damping: Quantity<A, NewtonSecondPerMetre> =
+            lowered.wall.damping + lowered.damping * load;
+        let total = Quantity(A::left_of(load.0, (damping * tip.outward).0));
+        let most = (lowered.sticking * elastic).min(self.pull);
+        state.pull = (state.pull - lowered.sticking * deeper).clamp_from_zero(most);
+        let drag = (self.viscous * tip.speed + self.plough) * tip.depth;
+        SurfaceForce {
+            load,
+            total: total - state.pull,
+            drag: drag.max(Quantity::ZERO),
+        }
+    }
+
+    /// Nothing presses: every number goes to zero.
+    fn recover(
+        &self,
+        passivity: &Passivity<A>,
+        state: &mut ContactState<A>,
+        tip: &Pressing<A>,
+    ) -> SurfaceForce<A> {
+        let weakest = Quantity::<A, RelaxingNewton>::of(WEAKEST_N);
+        if state.relaxing.max(-state.relaxing) < weakest {
+            state.relaxing = Quantity::ZERO;
+        }
+        let travel = tip.speed * passivity.period();
+        for _ in 0..tip.elapsed_ticks.clamp(1, 3) {
+            let gone = self.recovers * state.imprint + Quantity::<A, Fraction>::of(FRESH) * travel;
+            state.imprint = (state.imprint - gone).above(Quantity::of(SHALLOWEST_M));
+        }
+        state.pull = Quantity::ZERO;
+        SurfaceForce::NONE
+    }
+
+    /// s(e), m.
+    #[inline]
+    fn shape_at(&self, elastic: Quantity<A, Metre>) -> Quantity<A, Metre> {
+        if self.shape.is_some() {
+            A::shape(self.shape.at(A::fine_depth(elastic)))
+        } else {
+            elastic
+        }
+    }
+}
+
+/// Forces on the way from one surface to another, where either gives way: the difference of both
+/// fades.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ForceCrossing<A: Arithmetic> {
+    last: SurfaceForce<A>,
+    remains: SurfaceForce<A>,
+    /// True if the surface has changed since the last tick.
+    begun: bool,
+    /// True if the last force was that of a law, or on the way from one.
+    lawful: bool,
+}
+
+impl<A: Arithmetic> ForceCrossing<A> {
+    /// Nothing was touched yet.
+    pub(crate) const START: Self = Self {
+        last: SurfaceForce::NONE,
+        remains: SurfaceForce::NONE,
+        begun: false,
+        lawful: false,
+    };
+
+    /// Another surface is touched from here on.
+    pub(crate) const fn begin(&mut self) {
+        self.begun = true;
+    }
+
+    /// The force to render instead of the one of the new surface; a tick goes a `fraction` of the way
+    /// to it.
+    #[inline(always)]
+    pub(crate) fn step(
+        &mut self,
+        force: SurfaceForce<A>,
+        law: bool,
+        fraction: Quantity<A, Fraction>,
+    ) -> SurfaceForce<A> {
+        if law | self.lawful {
+            self.lawful = law;
+            return self.fade(force, fraction);
+        }
+        self.begun = false;
+        self.last = force;
+        force
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn fade(&mut self, force: SurfaceForce<A>, fraction: Quantity<A, Fraction>) -> SurfaceForce<A> {
+        let zero = Quantity::ZERO;
+        if self.begun {
+            self.begun = false;
+            self.remains = SurfaceForce {
+                load: self.last.load - force.load,
+                total: self.last.total - force.total,
+                drag: self.last.drag - force.drag,
+            };
+        }
+        let left = Quantity::whole(1) - fraction;
+        let least = Quantity::of(SMALLEST_REMAINDER_N);
+        // In the open, and where little is left, nothing remains.
+        let mut some = false;
+        let mut fade = |remains: Quantity<A, Newton>| {
+            let remains = left * remains;
+            let heard = (remains.max(-remains) > least) & (force.load > zero);
+            some |= heard;
+            if heard { remains } else { zero }
+        };
+        self.remains = SurfaceForce {
+            load: fade(self.remains.load),
+            total: fade(self.remains.total),
+            drag: fade(self.remains.drag),
+        };
+        self.lawful |= some;
+        self.last = SurfaceForce {
+            load: (force.load + self.remains.load).max(zero),
+            total: force.total + self.remains.total,
+            drag: (force.drag + self.remains.drag).max(zero),
+        };
+        self.last
+    }
+}
+
+/// The points of a shape in micrometres: its own, the origin before them, and the end of the last
+/// line behind them.
+fn shape(law: &formats::ContactLaw<'_>) -> impl Iterator<Item = (u16, u16)> {
+    let points = law.points().map(|p| (p.depth_code, p.shape_code));
+    let count = points.len();
+    let mut last = [(0_u32, 0_u32); 2];
+    for (depth, shape) in law.points().map(|p| (p.depth_code, p.shape_code)) {
+        last = [last[1], (depth.into(), shape.into())];
+    }
+    let [(from, low), (to, high)] = last;
+    let rest = u32::from(u16::MAX) - to;
+    let end = high + (rest * (high - low)).checked_div(to - from).unwrap_or(0);
+    let some = count > 0;
+    let end = (some && rest > 0).then_some((u16::MAX, end as u16));
+    some.then_some((0, 0)).into_iter().chain(points).chain(end)
+}
+
+/// 1 − exp(−x) for x > 0, also where x is small; not for the tick.
+fn decay(x: f32) -> f32 {
+    if x > 0.5 {
+        return 1.0 - exp(-x.min(80.0));
+    }
+    let mut sum = 1.0;
+    for n in (2..=8_u8).rev() {
+        sum = 1.0 - x / f32::from(n) * sum;
+    }
+    x * sum
+}
+
+/// Conversions between an arithmetic and the integers of a shape.
+pub trait ShapeLookup: Arithmetic {
+    /// A depth in 1/256 µm; 0 for NaN and below 0, the end of the range beyond it.
+    fn fine_depth(depth: Quantity<Self, Metre>) -> u32;
+    /// A shape from units of 2⁻¹⁶ µm.
+    fn shape(fine: u32) -> Quantity<Self, Metre>;
+}
+
+impl ShapeLookup for Float {
+    #[inline(always)]
+    fn fine_depth(depth: Quantity<Self, Metre>) -> u32 {
+        // A cast truncates and saturates, and gives 0 for NaN.
+        (depth.0 * 256.0e6) as u32
+    }
+
+    #[inline(always)]
+    fn shape(fine: u32) -> Quantity<Self, Metre> {
+        Quantity(fine as f32 * (1.0e-6 / 65_536.0))
+    }
+}
+
+impl ShapeLookup for Fixed {
+    #[inline(always)]
+    fn fine_depth(depth: Quantity<Self, Metre>) -> u32 {
+        // 256·10⁶ over the 2²⁸ of a metre is 15625/16384.
+        let bits = u64::from(depth.max(Quantity::ZERO).0.bits());
+        ((bits * 15_625) >> 14) as u32
+    }
+
+    #[inline(always)]
+    fn shape(fine: u32) -> Quantity<Self, Metre> {
+        // 2²⁸/(10⁶·2¹⁶) is 0.004096, here times 2³².
+        let bits = (u64::from(fine) * 17_592_186 + (1 << 31)) >> 32;
+        Quantity(fixed::FixedI32::from_bits(bits as i32))
+    }
+}
