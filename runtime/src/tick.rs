@@ -29,7 +29,7 @@ use crate::{
     stage::{
         contact::DistanceField,
         contact_law::{Pressing, SurfaceForce},
-        recursion::Sounded,
+        recursion::VibrationSample,
         vibration::Vibration,
         wall::{NormalForce, Wall},
     },
@@ -93,7 +93,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         sample: &Sample<A>,
         mu: impl FnOnce(Quantity<A, MillimetrePerSecond>) -> Quantity<A, FrictionCoefficient>,
         mix: impl FnOnce(SurfaceForce<A>) -> SurfaceForce<A>,
-        sound: impl FnOnce(&mut Vibration<A>, bool) -> Sounded<A>,
+        sound: impl FnOnce(&mut Vibration<A>, bool) -> VibrationSample<A>,
     ) -> Output<A> {
         let Touched {
             field,
@@ -164,7 +164,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         // F_vib t̂: the vibration, in contact only.
         let sounding =
             flags.intersection(Flags::CONTACT.union(Flags::SAFE_STATE)) == Flags::CONTACT;
-        let Sounded { y, clamped } = sound(&mut state.vibration, sounding);
+        let VibrationSample { y, clamped } = sound(&mut state.vibration, sounding);
         let vibration_force = coupling.vib_mass * y;
         let axis = match self.config().vibration_axis {
             VibrationAxis::Tangent => state.direction.get(),

@@ -235,7 +235,7 @@ fn a_bristle_leaks_slips_and_leads_as_its_equation_says() {
                     Vector::of([0.0, motion as f32, 1e-4]),
                     Vector::of([0.0, 0.0, 1.0]),
                     Quantity::of(load as f32),
-                    Quantity::of(mu as f32),
+                    Quantity::of((mu * load) as f32),
                 );
                 d += motion;
                 let limit = mu * load;

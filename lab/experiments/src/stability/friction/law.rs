@@ -42,7 +42,7 @@ pub fn ours(mu: f64, delay_ticks: u32) -> Law {
             Vector::of([motion_m as f32, 0.0, 0.0]),
             Vector::of([0.0, 0.0, 1.0]),
             Quantity::of(normal_n as f32),
-            Quantity::of(mu as f32),
+            Quantity::of((mu * normal_n) as f32),
         );
         f64::from(friction.force().values()[0])
     })

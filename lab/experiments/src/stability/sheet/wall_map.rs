@@ -119,7 +119,8 @@ fn lines(canvas: &mut Canvas, panel: &Panel, delay: u32) {
         panel.line(canvas, line, stroke);
     }
     let ours_at = |b: f64| {
-        let passivity: Passivity = Passivity::new(&Bench::viscous(b, delay).mechanics(), 1000.0);
+        let passivity: Passivity =
+            Passivity::new(&Bench::viscous(b, delay).mechanics(), 3.3, 1000.0);
         let wall = passivity.bear(Wall::of(REPORTED.0 as f32, REPORTED.1 as f32));
         (b, f64::from(wall.stiffness.value()))
     };

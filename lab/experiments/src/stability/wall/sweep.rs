@@ -128,7 +128,7 @@ pub fn lowered_walls() -> (usize, usize) {
     for delay in 0..=3 {
         for b in DAMPINGS_N_S_M {
             let bench = Bench::viscous(b, delay);
-            let passivity = Passivity::new(&bench.mechanics(), 1000.0);
+            let passivity = Passivity::new(&bench.mechanics(), 3.3, 1000.0);
             let mut wall = passivity.bear(Wall::of(REPORTED.0 as f32, REPORTED.1 as f32));
             if f64::from(wall.stiffness.value()) < REPORTED.0 {
                 wall.stiffness = Quantity::of(1.05 * wall.stiffness.value());
