@@ -154,8 +154,13 @@ impl<A: RenderArithmetic> Renderer<A> {
             Quantity::whole(1)
         };
         crossing.coupling.follow(&texture.coupling, fraction);
+        if texture.contact.is_some() | crossing.forces.is_lawful() {
+            // The forces themselves follow.
+            crossing.coupling.wall = texture.coupling.wall;
+        }
         let coupling = crossing.coupling;
         let touched = Touched {
+            texture,
             field,
             coupling: &coupling,
             wall: self.wall_of(&coupling),
@@ -172,7 +177,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         let sound =
             |vibration: &mut Vibration<A>, sounding| crossing.sound(vibration, upsampler, sounding);
         let mix = |force| forces.step(force, texture.contact.is_some(), fraction);
-        let output = self.force(touched, texture, state, sample, mu, mix, sound);
+        let output = self.force(touched, state, sample, mu, mix, sound);
         (crossing.factor, crossing.forces) = (factor, forces);
         state.vibration.query(
             texture,

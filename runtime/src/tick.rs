@@ -39,7 +39,8 @@ use crate::{
 
 /// Touched surface, without the vibration of its texture.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Touched<'a, A: RenderArithmetic> {
+pub(crate) struct Touched<'a, S: Capacity, A: RenderArithmetic> {
+    pub(crate) texture: &'a Texture<S, A>,
     pub(crate) field: &'a DistanceField<A>,
     pub(crate) coupling: &'a Coupling<A>,
     /// The wall of the coupling, lowered to what the device can bear.
@@ -61,6 +62,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         let fraction = || self.following.of(&texture.plan);
         state.vibration.prepare(texture, fraction);
         let touched = Touched {
+            texture,
             field: &self.field,
             coupling: &texture.coupling,
             wall: state.wall,
@@ -70,7 +72,7 @@ impl<A: RenderArithmetic> Renderer<A> {
             vibration.sound(recursion, upsampler, sounding)
         };
         let mu = |speed| texture.friction_at(speed);
-        let output = self.force(touched, texture, state, sample, mu, |force| force, sound);
+        let output = self.force(touched, state, sample, mu, |force| force, sound);
         if state.vibration.takes_query() {
             state.wall = self.wall_of(&texture.coupling);
         }
@@ -87,8 +89,7 @@ impl<A: RenderArithmetic> Renderer<A> {
     #[inline(always)]
     pub(crate) fn force<S: Capacity>(
         &self,
-        touched: Touched<'_, A>,
-        texture: &Texture<S, A>,
+        touched: Touched<'_, S, A>,
         state: &mut State<A>,
         sample: &Sample<A>,
         mu: impl FnOnce(Quantity<A, MillimetrePerSecond>) -> Quantity<A, FrictionCoefficient>,
@@ -96,6 +97,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         sound: impl FnOnce(&mut Vibration<A>, bool) -> VibrationSample<A>,
     ) -> Output<A> {
         let Touched {
+            texture,
             field,
             coupling,
             wall,
@@ -149,7 +151,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         let friction = self
             .bristle
             .step(&mut state.friction, gated.motion, normal, grip, limit);
-        if law.is_some() {
+        if law.is_some() & (depth > Quantity::ZERO) {
             law.heal(&mut state.contact, friction.slip, friction.size, load);
         }
         let friction_force = friction.direction * friction.size;

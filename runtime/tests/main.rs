@@ -21,6 +21,7 @@ mod motion_stages;
 
 // What is loaded and configured.
 mod config_ranges;
+mod contact_laws;
 mod fixed_ranges;
 mod loading;
 

@@ -9,7 +9,7 @@ use asperity_runtime::{
 use asperity_tests::{
     draw::Draw,
     oracle::{Oracle, Tick},
-    texture::{HostSlot, TextureKind, random, random_law},
+    texture::{HostSlot, TextureKind, random, random_contact, random_law},
     trajectory::{strokes, strokes_at},
 };
 
@@ -210,6 +210,64 @@ fn friction_that_depends_on_speed() {
         });
         assert_close(&worst, 1000.0, &format!("law, {kind:?}"));
     }
+}
+
+/// Laws of every mixture of parts, on strokes, taps, held samples and missed periods.
+#[test]
+fn materials_that_give_way() {
+    let mut draw = Draw::new(70);
+    let mut parts = [0; 6];
+    for seed in 70..90 {
+        let mut texture = random(seed, TextureKind::nyquist(8));
+        let contact = random_contact(&mut draw);
+        for (count, there) in parts.iter_mut().zip([
+            !contact.spring.is_empty(),
+            contact.damping_s_m > 0.0,
+            contact.relaxation.stiffness_n_m > 0.0,
+            contact.imprint.share > 0.0,
+            contact.drag.viscous_n_s_m2 > 0.0,
+            contact.adhesion.pull_n > 0.0,
+        ]) {
+            *count += u32::from(there);
+        }
+        texture.coupling.stiffness_n_m = draw.range(100.0, 500.0) as f32;
+        // What speed may be off by, and a step of the load, count for drag and for what yields.
+        let drag = f64::from(contact.drag.viscous_n_s_m2) * 6e-3;
+        // Rounding may change in which tick a surface yields or the load ends, hence how fast grains
+        // crunch, how far the surface heals in that tick, and whether the bristle is let go.
+        let (crunches, healed_n, let_go_n) = if contact.imprint.share > 0.0 {
+            (0.02, 5e-3, 2e-2)
+        } else {
+            (0.0, 0.0, 0.0)
+        };
+        texture.contact = Some(contact);
+        let bytes = texture.encode();
+        let mut samples = fresh(strokes(seed, 10_000));
+        for sample in samples.iter_mut().skip(100) {
+            match draw.below(300) {
+                0 => sample.elapsed_ticks = 2 + draw.below(2) as u32,
+                1 => *sample = Sample::STALE,
+                _ => {}
+            }
+        }
+        let worst = compare(&bytes, &Config::default(), seed, &samples).map(|(worst, within)| {
+            let by_speed = drag * within.speed_mm_s / 1000.0;
+            let within = Tolerance {
+                normal_force_n: 6e-4 + healed_n,
+                vib: within.vib + crunches,
+                friction_n: within.friction_n + by_speed + 6e-4 + let_go_n,
+                force_n: within.force_n + by_speed + 2e-3 + let_go_n,
+                ..within
+            };
+            (worst, within)
+        });
+        assert_close(
+            &worst,
+            1000.0,
+            &format!("seed {seed}: {:?}", texture.contact),
+        );
+    }
+    assert!(parts.iter().all(|&count| count > 5), "{parts:?}");
 }
 
 #[test]

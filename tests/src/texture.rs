@@ -2,8 +2,9 @@
 
 use crate::{draw::Draw, stability};
 use asperity_formats::{
-    AssetParts, Coupling, FrictionParts, GridParts, LawPoint, LsfCode, ModelParts, Numerator,
-    TapParts, Vertex, VertexKind, encode,
+    Adhesion, AssetParts, ContactParts, Coupling, Drag, FrictionParts, GridParts, Imprint,
+    LawPoint, LsfCode, ModelParts, Numerator, Relaxation, SpringPoint, TapParts, Vertex,
+    VertexKind, encode,
 };
 
 /// [`asperity_runtime::HostTexture`] in any arithmetic.
@@ -43,6 +44,25 @@ pub struct Texture {
     pub law: Vec<LawPoint>,
     /// Wall and gains.
     pub coupling: Coupling,
+    /// Contact law, or none.
+    pub contact: Option<Contact>,
+}
+
+/// A contact law in parts.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Contact {
+    /// λ, s/m.
+    pub damping_s_m: f32,
+    /// The Maxwell branch.
+    pub relaxation: Relaxation,
+    /// What does not spring back.
+    pub imprint: Imprint,
+    /// Resistance along the surface.
+    pub drag: Drag,
+    /// Pull at release.
+    pub adhesion: Adhesion,
+    /// Elastic depth and shape, m.
+    pub spring: Vec<(f64, f64)>,
 }
 
 /// Kind of a random texture.
@@ -183,6 +203,7 @@ pub fn random(seed: u64, kind: TextureKind) -> Texture {
             effective_mass_kg: 0.01,
             f_max_n: 3.3,
         },
+        contact: None,
     }
 }
 
@@ -199,6 +220,52 @@ pub fn random_law(draw: &mut Draw, fastest_mm_s: f64, highest: f64) -> Vec<LawPo
     points
         .filter_map(|speed| LawPoint::nearest(speed, draw.range(0.0, highest)))
         .collect()
+}
+
+/// A contact law with some of its parts, whose stiffnesses a default device bears on a wall of 400 N/m.
+#[must_use]
+pub fn random_contact(draw: &mut Draw) -> Contact {
+    let mut contact = Contact::default();
+    let mut number = |low: f64, high: f64| draw.range(low, high) as f32;
+    if number(0.0, 1.0) < 0.7 {
+        contact.damping_s_m = number(0.0, 0.1);
+    }
+    if number(0.0, 1.0) < 0.7 {
+        contact.relaxation = Relaxation {
+            stiffness_n_m: number(20.0, 200.0),
+            time_s: number(0.006, 2.0),
+        };
+    }
+    if number(0.0, 1.0) < 0.7 {
+        contact.imprint = Imprint {
+            yield_m: number(0.0, 2e-3),
+            share: number(0.1, 1.0),
+            heal: number(0.0, 0.3),
+            recovery_s: number(0.0, 2.0),
+        };
+    }
+    if number(0.0, 1.0) < 0.7 {
+        contact.drag = Drag {
+            viscous_n_s_m2: number(0.0, 1000.0),
+            plough_n_m: number(0.0, 100.0),
+        };
+    }
+    if number(0.0, 1.0) < 0.7 {
+        contact.adhesion = Adhesion {
+            pull_n: number(0.02, 0.4),
+            stiffness_n_m: number(20.0, 200.0),
+        };
+    }
+    let points = draw.below(7);
+    let mut at = (0.0, 0.0);
+    contact.spring = (0..points)
+        .map(|_| {
+            let deeper = draw.range(2e-4, 3e-3);
+            at = (at.0 + deeper, at.1 + draw.range(0.0, 1.0) * deeper);
+            at
+        })
+        .collect();
+    contact
 }
 
 /// The triangles of a lattice of vertices stored row after row.
@@ -244,6 +311,9 @@ impl Texture {
             .iter()
             .map(|(speed_m_s, trace)| (*speed_m_s, trace.as_slice()))
             .collect();
+        let spring: Vec<_> = (self.contact.iter().flat_map(|contact| &contact.spring))
+            .filter_map(|&(depth_m, shape_m)| SpringPoint::nearest(depth_m, shape_m))
+            .collect();
         let parts = AssetParts {
             name: "random",
             grid: GridParts {
@@ -265,7 +335,14 @@ impl Texture {
                 law: &self.law,
             },
             coupling: self.coupling,
-            contact: None,
+            contact: self.contact.as_ref().map(|contact| ContactParts {
+                damping_s_m: contact.damping_s_m,
+                relaxation: contact.relaxation,
+                imprint: contact.imprint,
+                drag: contact.drag,
+                adhesion: contact.adhesion,
+                spring: &spring,
+            }),
             provenance: None,
             preview_png: None,
         };

@@ -14,9 +14,9 @@
 //! **No part gives energy off**, as far as a sampled spring does not ([`passivity`](super::passivity),
 //! which counts k + k₁ + k_a and the damping at the device's greatest force). The spring stores; the
 //! branch and the pull are springs in series with what only loses. The imprint grows only while the
-//! spring is beyond its yield, which loses; it heals by h a metre of slip only while friction is h
-//! times the load at least, so that the friction pays for what lifts the tip; and it recovers only
-//! where there is no load. Drag is nothing but the limit at which the bristle slips.
+//! spring is beyond its yield, which loses; under a load it heals by the ratio of friction and load, at
+//! most by h, a metre of slip, so that the friction pays for what lifts the tip; and it recovers only
+//! in the open. Drag is nothing but the limit at which the bristle slips.
 //!
 //! **At rest** nothing moves: imprint and pull change with motion alone. In the open every number
 //! goes to zero, exactly.
@@ -28,13 +28,13 @@ use super::{
 };
 use crate::{
     arithmetic::{Arithmetic, Cut, Fixed, Float, Scalar as _},
-    math::exp,
+    math::{exp, min},
     quantity::{
         Quantity,
         unit::{
-            Fraction, Metre, MetrePerSecond, MillimetrePerMetre, MillimetrePerSecond, Newton,
-            NewtonPerMetre, NewtonSecondPerMetre, NewtonSecondPerSquareMetre, RelaxingNewton,
-            SecondPerMetre,
+            FineNewton, Fraction, Metre, MetrePerSecond, MillimetrePerMetre, MillimetrePerSecond,
+            Newton, NewtonPerMetre, NewtonSecondPerMetre, NewtonSecondPerSquareMetre,
+            RelaxingNewton, SecondPerMetre,
         },
     },
 };
@@ -220,9 +220,13 @@ impl<A: Arithmetic> ContactLaw<A> {
         friction: Quantity<A, Newton>,
         load: Quantity<A, Newton>,
     ) {
-        if friction >= self.heals * load {
-            state.imprint = (state.imprint - self.heals * slip).max(Quantity::ZERO);
-        }
+        let paid = if load > Quantity::ZERO {
+            let ratio = friction.to::<FineNewton>().over(load.to::<FineNewton>());
+            ratio.min(self.heals)
+        } else {
+            self.heals
+        };
+        state.imprint = (state.imprint - paid * slip).max(Quantity::ZERO);
     }
 }
 
@@ -240,8 +244,10 @@ impl<A: ShapeLookup + Pushing> ContactLaw<A> {
         let zero = Quantity::ZERO;
         let lowered = self.lowered(passivity, wall);
 
-        // What yields; then how far the elastic depth has changed.
-        let before = (tip.before - state.imprint).max(zero);
+        // What yields; then how far the elastic depth has changed. A surface that changed in contact
+        // has yielded before.
+        let imprint = state.imprint.max(self.share * (tip.before - self.yields));
+        let before = (tip.before - imprint).max(zero);
         let yielded = self.share * (tip.depth - self.yields);
         if yielded > state.imprint {
             let inward = -tip.outward.min(Quantity::ZERO);
@@ -267,7 +273,7 @@ impl<A: ShapeLookup + Pushing> ContactLaw<A> {
             let relaxed = state.relaxing - (self.relaxes * state.relaxing).settled() + taken;
             state.relaxing = relaxed.min(strongest).max(-strongest).settled();
         }
-        if !(tip.depth > zero) {
+        if tip.depth <= zero {
             return self.recover(passivity, state, &tip);
         }
 
@@ -345,6 +351,12 @@ impl<A: Arithmetic> ForceCrossing<A> {
         self.begun = true;
     }
 
+    /// Returns true if the last force was that of a law, or on the way from one.
+    #[inline(always)]
+    pub(crate) const fn is_lawful(&self) -> bool {
+        self.lawful
+    }
+
     /// The force to render instead of the one of the new surface; a tick goes a `fraction` of the way
     /// to it.
     #[inline(always)]
@@ -420,7 +432,7 @@ fn shape(law: &formats::ContactLaw<'_>) -> impl Iterator<Item = (u16, u16)> {
 /// 1 − exp(−x) for x > 0, also where x is small; not for the tick.
 fn decay(x: f32) -> f32 {
     if x > 0.5 {
-        return 1.0 - exp(-x.min(80.0));
+        return 1.0 - exp(-min(x, 80.0));
     }
     let mut sum = 1.0;
     for n in (2..=8_u8).rev() {

@@ -2,6 +2,7 @@
 
 mod attributes;
 mod bank;
+mod contact;
 mod excitation;
 mod interpolator;
 mod motion;
@@ -11,6 +12,7 @@ mod tick;
 
 pub use attributes::{Attributes, attributes, loudest_n, stroke_n};
 pub use bank::{Bank, impulse_response};
+pub use contact::{Contact, Forces};
 pub use excitation::Excitation;
 pub use interpolator::Interpolator;
 pub use motion::Butterworth2;

@@ -1,8 +1,8 @@
 //! The whole tick.
 
 use super::{
-    Bank, Butterworth2, Excitation, Interpolator, Model, Texture, Vector, distance_and_normal, dot,
-    norm, plus, polynomial, times,
+    Bank, Butterworth2, Contact, Excitation, Forces, Interpolator, Model, Texture, Vector,
+    distance_and_normal, dot, norm, plus, polynomial, times,
 };
 use asperity_formats::Asset;
 use asperity_runtime::{Config, Sample, VibrationAxis, stage::vibration::LAG_SAMPLES};
@@ -37,6 +37,7 @@ pub struct Oracle {
     /// Speeds, mm/s, and factors of μ.
     law: Vec<(f64, f64)>,
     coupling: asperity_formats::Coupling,
+    contact: Option<Contact>,
     // Gate.
     bad_in_a_row: u32,
     seen: bool,
@@ -90,6 +91,7 @@ impl Oracle {
                     .collect()
             }),
             coupling: *asset.coupling(),
+            contact: (asset.contact()).map(|law| Contact::new(law, asset.coupling(), config)),
             bad_in_a_row: 0,
             seen: false,
             gain: 1.0,
@@ -140,6 +142,7 @@ impl Oracle {
         let motion = plus(self.position, self.last_position, -1.0);
         let backward = times(motion, rate / f64::from(elapsed));
         let velocity: Vector = std::array::from_fn(|i| self.velocity[i].step(backward[i]));
+        let before = (-self.last_distance).max(0.0);
         let outward = self
             .outward
             .step((distance - self.last_distance) * rate / f64::from(elapsed));
@@ -153,20 +156,27 @@ impl Oracle {
         let touching = distance < 0.0;
         let depth = (-distance).max(0.0);
         let (stiffness, damping) = self.wall();
-        let normal_force = stiffness * depth;
-        let vib = self.vibration(speed * 1000.0, normal_force, touching && !safe);
+        let contact = self.contact.as_mut();
+        let forces = contact.map(|law| law.tick(before, depth, outward, speed, elapsed));
+        let crunch = self.contact.as_ref().map_or(0.0, Contact::crunch_mm_s);
+        let normal_force = forces.map_or(stiffness * depth, |forces| forces.load);
+        let vib = self.vibration(speed * 1000.0 + crunch, normal_force, touching && !safe);
         let tap = f64::from(self.coupling.effective_mass_kg) * self.tap(distance);
         let mu = self.mu * self.factor(speed * 1000.0);
-        let friction = self.friction(
-            tangential,
-            motion,
-            mu * normal_force,
-            normal_force,
-            touching,
-        );
+        let drag = forces.map_or(0.0, |forces| forces.drag);
+        let limit = mu * normal_force + drag;
+        let grip = normal_force + drag;
+        let (friction, slip) = self.friction(tangential, motion, limit, grip, touching);
+        if let Some(contact) = &mut self.contact {
+            contact.heal(slip, norm(friction), normal_force);
+        }
 
         let damped = normal_force - damping * outward;
-        let wall = if touching { damped.max(0.0) } else { 0.0 };
+        let wall = match forces {
+            Some(Forces { total, .. }) => total,
+            None if touching => damped.max(0.0),
+            None => 0.0,
+        };
         let axis = match self.config.vibration_axis {
             VibrationAxis::Tangent => self.direction,
             VibrationAxis::Binormal => {
@@ -238,6 +248,9 @@ impl Oracle {
         self.armed = false;
         self.transient.clear();
         self.bristle = [0.0; 3];
+        if let Some(contact) = &mut self.contact {
+            contact.restart();
+        }
     }
 
     /// Every cycle takes one query, in the last tick before its second sample. The new model
@@ -374,31 +387,30 @@ impl Oracle {
 
     /// The bristle with deflection d. Each tick keeps the fraction 1/(1 + T/τ) of it, with
     /// τ = F_n/(k·v_c), and |d| is at most μF/k + h. Beyond the dead zone h the force is
-    /// k(|d| − h + lead), at most μF, against the deflection. The lead is the motion along d
+    /// k(|d| − h + lead), at most the limit, against the deflection; the root slips by what is not kept.
+    /// Drag adds to F and to the limit. The lead is the motion along d
     /// during a tick and the delay, at most half of |d| − h.
     fn friction(
         &mut self,
         tangential: impl Fn(Vector) -> Vector,
         motion: Vector,
         limit: f64,
-        normal_force: f64,
+        grip: f64,
         touching: bool,
-    ) -> Vector {
+    ) -> (Vector, f64) {
         let (k, h) = (
             f64::from(self.config.friction.stiffness_n_m),
             f64::from(self.config.friction.dead_zone_m),
         );
         if !touching {
             self.bristle = [0.0; 3];
-            return self.bristle;
+            return (self.bristle, 0.0);
         }
-        let time_constant = normal_force / (k * f64::from(self.config.friction.leak_speed_m_s));
+        let time_constant = grip / (k * f64::from(self.config.friction.leak_speed_m_s));
         let leak = 1.0 / (time_constant * f64::from(self.config.servo_rate_hz));
         let motion = tangential(motion);
-        let moved = times(
-            tangential(plus(self.bristle, motion, 1.0)),
-            1.0 / (1.0 + leak),
-        );
+        let pulled = tangential(plus(self.bristle, motion, 1.0));
+        let moved = times(pulled, 1.0 / (1.0 + leak));
         let (length, reach) = (norm(moved), limit / k + h);
         self.bristle = if length > reach {
             times(moved, reach / length)
@@ -406,14 +418,15 @@ impl Oracle {
             moved
         };
         let length = norm(self.bristle);
+        let slip = norm(pulled) - length;
         if length <= h {
-            return [0.0; 3];
+            return ([0.0; 3], slip);
         }
         let along = times(self.bristle, 1.0 / length);
         let ticks = 1.0 + f64::from(self.config.mechanics.delay_ticks);
         let lead = (ticks * dot(along, motion)).min((length - h) / 2.0);
         let force = (k * (length - h + lead)).clamp(0.0, limit);
-        times(along, -force)
+        (times(along, -force), slip)
     }
 
     /// Stiffness and damping of the passive wall nearest to that of the asset.
