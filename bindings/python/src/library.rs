@@ -2,11 +2,10 @@
 
 use crate::{
     arguments::{Choice, within},
-    contents::Contents,
+    contents::{Contents, Texture},
     error::{Failure, stopped},
     records,
     scene::Scene,
-    texture::Texture,
 };
 use asperity::{
     emit::{
