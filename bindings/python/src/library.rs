@@ -5,7 +5,6 @@ use crate::{
     contents::{Contents, Texture},
     error::{Failure, stopped},
     records,
-    scene::Scene,
 };
 use asperity::{
     emit::{
@@ -160,16 +159,8 @@ impl Library {
         &self.names
     }
 
-    /// As Python has it: a scene where it has surfaces.
-    pub(crate) fn into_python(self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        if self.has_scene()? {
-            Scene::over(self, py)
-        } else {
-            Ok(Py::new(py, self)?.into_any())
-        }
-    }
-
-    fn has_scene(&self) -> Result<bool, Failure> {
+    /// Returns true if it has surfaces.
+    pub(crate) fn has_scene(&self) -> Result<bool, Failure> {
         Ok(match &self.place {
             Place::File(textures) => held(textures).has_scene(),
             Place::Memory(_) => !self.surfaces()?.is_empty(),
