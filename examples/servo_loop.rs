@@ -28,7 +28,7 @@ const MOST_TICKS: usize = 30_000;
 const TEXTURES: [(&str, f64); 3] = [("grit", 0.72), ("smooth", 0.3), ("sticky", 1.1)];
 
 /// Output of a tick, and the friction coefficient of the texture that played.
-type Row = (Output, f32);
+type PlayedTick = (Output, f32);
 
 fn main() -> Result<(), Box<dyn Error>> {
     let config = Config::default();
@@ -108,16 +108,17 @@ fn servo_loop<S: Servo>(
 }
 
 /// Checks the invariants, which hold however late the loop was woken.
-fn check(rows: &[Row], peak_n: f32) {
-    let force_n = |(output, _): &Row| output.force_n.iter().map(|n| n * n).sum::<f32>().sqrt();
+fn check(rows: &[PlayedTick], peak_n: f32) {
+    let force_n =
+        |(output, _): &PlayedTick| output.force_n.iter().map(|n| n * n).sum::<f32>().sqrt();
     assert!(rows.iter().all(|row| force_n(row) <= 1.0001 * peak_n));
-    let pressed = |(output, _): &Row| output.normal_force_n > 0.5;
+    let pressed = |(output, _): &PlayedTick| output.normal_force_n > 0.5;
     assert!(rows.iter().any(pressed), "nothing was touched");
     assert_eq!(rows.last().map(force_n), Some(0.0), "a force was left on");
     // Two stale samples hold the last good one; the third enters the safe state, where the slew
     // limit takes 3.3 N to zero in two ticks. The first good sample begins a ramp.
     let safe = &rows[STALE.start + 2..STALE.end];
-    let is_safe = |(output, _): &Row| output.flags.contains(Flags::SAFE_STATE);
+    let is_safe = |(output, _): &PlayedTick| output.flags.contains(Flags::SAFE_STATE);
     assert!(safe.iter().all(is_safe), "not safe");
     assert!(safe[2..].iter().all(|row| force_n(row) == 0.0), "a force");
     let (back, _) = rows[STALE.end];
@@ -125,7 +126,7 @@ fn check(rows: &[Row], peak_n: f32) {
 }
 
 /// The textures in the order in which they played.
-fn report(rows: &[Row]) {
+fn report(rows: &[PlayedTick]) {
     println!("texture     mu   ticks   vibration m/s² RMS");
     let mut played = rows.chunk_by(|(_, before), (_, mu)| before == mu);
     for (name, _) in TEXTURES {

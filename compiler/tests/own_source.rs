@@ -6,15 +6,15 @@ use asperity::{
     emit::raise::raise,
     interchange::{self, ClipFormat, session},
     learned::{edges, inference::Backend},
-    library::{Build, Manifest, Request as Wanted},
+    library::{Build, Manifest, Request as BuildRequest},
     model::{GridVertex, ModelGrid, Numerator, TextureModel, VertexKind, triangulate},
     passes::reduce::Fidelity,
     pipeline::{Pass, Pipeline, Request},
     scene::{self, Budget, Description},
     signal::{lsf, spectrum::ArmaModel},
     sources::{
-        Kind, ManifestSource, Operand, Registry, Source, SourceOutput, Tools, builtin, key::Parts,
-        prompt::PromptCompiler,
+        ManifestSource, Operand, Registry, Source, SourceKind, SourceOutput, Tools, builtin,
+        key::Parts, prompt::PromptCompiler,
     },
 };
 use asperity_formats::{Asset, Library};
@@ -35,7 +35,7 @@ impl Diagnostic for NoPeriod {
     }
 }
 
-const KIND: Kind = Kind {
+const KIND: SourceKind = SourceKind {
     key: "grating",
     operand: Operand::Text,
     open: |stated| {
@@ -142,7 +142,7 @@ fn built(text: &str) -> Result<Vec<u8>, String> {
     let file = Path::new("gratings.toml");
     let manifest = Manifest::within(file, text, Reach::Anywhere, &registry)
         .map_err(|errors| errors[0].to_string())?;
-    let request = Wanted::default();
+    let request = BuildRequest::default();
     let build = Build::new(&manifest, &request).map_err(told)?;
     let built = build.run(&open, &|| ()).map_err(told)?;
     let mut bytes = Vec::new();
@@ -190,7 +190,7 @@ fn a_scene_wears_it() {
     let built = scene::build(
         &scene,
         &Budget::default(),
-        &Wanted::default(),
+        &BuildRequest::default(),
         &open,
         &|| (),
     )

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 
 use asperity_io::diagnostic::Diagnostic;
-use asperity_io::input::{self, InputError, Kind};
+use asperity_io::input::{self, InputError, InputKind};
 use asperity_io::toml_error::TomlError;
 use serde::de::DeserializeOwned;
 
@@ -99,7 +99,7 @@ impl Diagnostic for ConfigError {
 
 /// Reads a whole text file.
 pub(crate) fn read_text(path: &Path) -> Result<String, ConfigError> {
-    let text = input::read_text(path, Kind::Settings);
+    let text = input::read_text(path, InputKind::Settings);
     text.map_err(|problem| {
         let file = path.to_path_buf();
         ConfigError::Read(InputError { file, problem })

@@ -5,7 +5,7 @@
 mod support;
 
 use asperity_host::device::{Description, Device, DeviceError, Reading};
-use asperity_host::servo::privileges::Wanted;
+use asperity_host::servo::privileges::PrivilegeRequest;
 use asperity_host::servo::{Monotonic, Servo, Settings, Start, SwappableTexture, queues};
 use asperity_runtime::{Exchange, HostTexture};
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -122,7 +122,7 @@ fn ticks_faults_exchanges_and_full_queues_allocate_nothing() {
             observer: record_writer,
             settings: Settings::at(10_000),
             clock: Monotonic::spinning(Duration::from_micros(20)),
-            wanted: Wanted::NOTHING,
+            privileges: PrivilegeRequest::NOTHING,
             stop: &stop,
         };
         let servo = Servo::spawn(scope, start).expect("a thread");

@@ -1,7 +1,7 @@
 //! A session of a servo loop, recorded and played in another loop: the same forces, bit for bit,
 //! however late either of them was.
 
-use crate::support::{Act, Kept, Scripted, texture};
+use crate::support::{Act, ObserverLog, Scripted, texture};
 use asperity_host::device::DeviceError;
 use asperity_host::device::replay::{AtEnd, Replay};
 use asperity_host::servo::{
@@ -28,7 +28,7 @@ fn settings(overrun: Overrun, pace: Pace) -> Settings {
 }
 
 /// Faults, silence, forces that do not arrive, late readings, and a recovery.
-fn session(overrun: Overrun) -> Kept {
+fn session(overrun: Overrun) -> ObserverLog {
     let clock = Virtual::new();
     let (texture, renderer) = texture(1000.0);
     let read = |call: u64| Act {
@@ -56,7 +56,7 @@ fn session(overrun: Overrun) -> Kept {
         texture: &texture,
         state: State::new(SEED),
     };
-    let mut kept = Kept::default();
+    let mut kept = ObserverLog::default();
     let settings = settings(overrun, Pace::Clock);
     let report = ServoLoop::new(&mut device, render, clock, &mut kept, settings).run(&NEVER);
     assert!(report.missed > 5 && report.read_faults > 50 && report.write_faults > 3);
@@ -85,7 +85,7 @@ fn recording(records: &[Record]) -> SessionLog {
 }
 
 /// Plays a recording in a loop that is late in other ticks.
-fn played(recording: &SessionLog, seed: u64) -> (Kept, End, (u64, u64)) {
+fn played(recording: &SessionLog, seed: u64) -> (ObserverLog, End, (u64, u64)) {
     let clock = Virtual::new();
     let (texture, renderer) = texture(1000.0);
     let mut replay = Replay::new(recording.clone(), AtEnd::Leave, "test").expect("a replay");
@@ -114,7 +114,7 @@ fn played(recording: &SessionLog, seed: u64) -> (Kept, End, (u64, u64)) {
         state: State::new(seed),
     };
     let render = Late(fixed, clock.clone(), 0);
-    let mut kept = Kept::default();
+    let mut kept = ObserverLog::default();
     let settings = Settings {
         periods: None,
         ..settings(Overrun::Skip, pace(recording, false))
@@ -154,7 +154,7 @@ fn a_session_with_faults_and_missed_periods_repeats_to_the_bit() {
         assert_eq!(different, 0, "of {forces}");
         // The end of a recording is no fault of the device. Forces that did not arrive are none in
         // a replay.
-        let failed = |kept: &Kept| {
+        let failed = |kept: &ObserverLog| {
             let events = kept.events.iter();
             events
                 .filter(|event| matches!(event, Event::Failed { .. }))

@@ -1,7 +1,7 @@
 //! The servo loop in virtual time with the runtime in it: faults, shutdown, telemetry. Overruns, recoveries and how a loop
 //! ends are in `servo_model`.
 
-use crate::support::{Act, Kept, Scripted, length, texture};
+use crate::support::{Act, ObserverLog, Scripted, length, texture};
 use asperity_formats::Library;
 use asperity_host::device::DeviceError;
 use asperity_host::servo::{
@@ -28,7 +28,7 @@ fn failing(calls: Range<u64>, fault: DeviceError) -> impl FnMut(u64) -> Act + Se
 
 struct Run {
     report: Report,
-    kept: Kept,
+    kept: ObserverLog,
     forces: Vec<[f32; 3]>,
 }
 
@@ -41,7 +41,7 @@ fn run(
     let clock = Virtual::new();
     let (texture, renderer) = texture(1000.0);
     let mut device = Scripted::new(&clock, read, write);
-    let mut kept = Kept::default();
+    let mut kept = ObserverLog::default();
     let render = SingleTexture {
         renderer: &renderer,
         texture: &texture,
@@ -239,7 +239,7 @@ fn a_loop_that_is_stopped_in_contact_lets_go_at_the_slew_limit() {
     let report = servo.run(&stop);
     let run = Run {
         report,
-        kept: Kept::default(),
+        kept: ObserverLog::default(),
         forces: device.forces,
     };
     assert_eq!(run.report.end, End::Asked);

@@ -2,7 +2,7 @@
 //! model says what the loop must report, tick by tick, and what may be left on the device. Forces are whole steps of the
 //! slew limit.
 
-use crate::support::{Act, Kept, Scripted};
+use crate::support::{Act, ObserverLog, Scripted};
 use asperity_host::device::DeviceError;
 use asperity_host::servo::{End, Event, Overrun, Render, Report, ServoLoop, Settings, Virtual};
 use asperity_runtime::{Config, Counters, Flags, Output, Sample};
@@ -357,7 +357,7 @@ fn check(seed: u64) -> Report {
     };
     let mut device = Scripted::new(&clock, read, write);
     (device.recovers, device.recovery_ns) = (script.recovers, script.recovery_ns);
-    let mut kept = Kept::default();
+    let mut kept = ObserverLog::default();
     let settings = Settings {
         overrun: script.overrun,
         periods: Some(script.periods),

@@ -1,8 +1,8 @@
 //! A device that fails in mid-stroke, in a servo loop: the force is gone, the device is found again
 //! and homed, and the force comes back by a ramp.
 
-use crate::support::{Act, Kept, Scripted, length, texture};
-use asperity_host::device::fault_injection::{Faulty, InjectedFault};
+use crate::support::{Act, ObserverLog, Scripted, length, texture};
+use asperity_host::device::fault_injection::{DeviceFaultInjector, InjectedFault};
 use asperity_host::device::{Description, Device, DeviceError, Reading};
 use asperity_host::fault_plan::FaultPlan;
 use asperity_host::servo::{Event, Report, ServoLoop, Settings, SingleTexture, Virtual};
@@ -16,7 +16,7 @@ const HOMING_TRIES: u32 = 2;
 
 /// A device behind faults that must be homed after it lost its power.
 struct OnDesk<D> {
-    faulty: Faulty<D>,
+    faulty: DeviceFaultInjector<D>,
     /// A fault that starts with the reading of this number, for so many periods.
     starts: Option<(u64, InjectedFault, u32)>,
     readings: u64,
@@ -33,7 +33,7 @@ impl<D: Device> OnDesk<D> {
         starts: Option<(u64, InjectedFault, u32)>,
     ) -> Self {
         Self {
-            faulty: Faulty::new(device, plan, 5),
+            faulty: DeviceFaultInjector::new(device, plan, 5),
             starts,
             readings: 0,
             homing_left: 0,
@@ -86,10 +86,10 @@ impl<D: Device> Device for OnDesk<D> {
 /// Results of a session.
 struct Session {
     report: Report,
-    kept: Kept,
+    kept: ObserverLog,
     commanded: Vec<[f32; 3]>,
     /// Forces that reached the motors.
-    taken: Vec<[f32; 3]>,
+    forces: Vec<[f32; 3]>,
     recoveries: u32,
 }
 
@@ -114,7 +114,7 @@ fn session_with(
     let mut scripted = Scripted::new(&clock, calm, calm);
     scripted.recovers = true;
     let mut device = OnDesk::new(&mut scripted, plan, starts);
-    let mut kept = Kept::default();
+    let mut kept = ObserverLog::default();
     let render = SingleTexture {
         renderer: &renderer,
         texture: &texture,
@@ -130,7 +130,7 @@ fn session_with(
         report,
         kept,
         commanded,
-        taken: scripted.forces,
+        forces: scripted.forces,
         recoveries,
     }
 }
@@ -243,8 +243,8 @@ fn what_a_device_holds_is_left_at_the_slew_limit() {
     assert_eq!(run.report.write_faults, 40);
     assert!(run.report.eased > 0, "one force at least");
     let most = 0.1 * (1.0 + 1e-5);
-    assert!(largest_step(&run.taken) <= most, "at the motors as well");
-    assert!(run.taken.iter().any(|force| length(*force) > 0.3));
+    assert!(largest_step(&run.forces) <= most, "at the motors as well");
+    assert!(run.forces.iter().any(|force| length(*force) > 0.3));
     assert!(run.report.ended_without_force);
 }
 

@@ -10,8 +10,8 @@ use asperity_experiments::import_accuracy::{Sensors, compare_at};
 use asperity_formats::Asset;
 use asperity_host::servo::{Event, Observer, Record, ServoLoop, Settings, SingleTexture, Virtual};
 use asperity_lab::capture::{
-    About, Ask, Batch, Coverage, FILES, LineDecoder, Plan, Samples, Simulated, Take, Told, part,
-    write,
+    About, Batch, Coverage, FILES, LineDecoder, NextStep, Plan, Samples, SensorDescription,
+    Simulated, Take, part, write,
 };
 use asperity_recording::check::Severity;
 use asperity_recording::signal::quantile::{median, quantile};
@@ -50,7 +50,7 @@ impl Observer for Recorder {
         if samples.is_empty() {
             return;
         }
-        let told = Told {
+        let told = SensorDescription {
             layout: self.lines.layout().expect("a header").clone(),
             stated_scale: Some(1.0),
         };
@@ -130,8 +130,8 @@ fn the_texture_that_was_stroked_comes_back_from_the_folder() {
         exploration.taps()
     );
     assert_eq!(
-        exploration.ask(),
-        Ask::Nothing,
+        exploration.next_step(),
+        NextStep::Nothing,
         "{:?}",
         exploration.coverage()
     );

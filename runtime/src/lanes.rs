@@ -26,12 +26,12 @@ pub struct F4(f32x4);
 
 /// Three components as a state keeps them; with a fourth number where memory is not scarce.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct F3(Kept);
+pub struct F3(StoredLanes);
 
 #[cfg(target_arch = "arm")]
-type Kept = [f32; 3];
+type StoredLanes = [f32; 3];
 #[cfg(not(target_arch = "arm"))]
-type Kept = F4;
+type StoredLanes = F4;
 
 #[cfg(target_arch = "arm")]
 impl F3 {

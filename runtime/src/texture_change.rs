@@ -20,7 +20,7 @@ use crate::{
     stage::{
         contact::DistanceField,
         friction_law::FactorCrossing,
-        recursion::{Recursion, Sounded},
+        recursion::{Recursion, VibrationSample},
         upsample::Upsampler,
         vibration::Vibration,
     },
@@ -114,8 +114,8 @@ impl<A: RenderArithmetic> TextureChange<A> {
         vibration: &mut Vibration<A>,
         upsampler: &Upsampler<A>,
         sounding: bool,
-    ) -> Sounded<A> {
-        let Sounded { y, clamped } = vibration.sound(self.recursion, upsampler, sounding);
+    ) -> VibrationSample<A> {
+        let VibrationSample { y, clamped } = vibration.sound(self.recursion, upsampler, sounding);
         self.heard = y;
         let faded = Quantity::<A, Fraction>::of(FADE) * self.fading;
         // In fixed point a step or two are their own fade.
@@ -125,7 +125,7 @@ impl<A: RenderArithmetic> TextureChange<A> {
         } else {
             Quantity::ZERO
         };
-        Sounded {
+        VibrationSample {
             y: y + self.fading,
             clamped,
         }

@@ -25,7 +25,7 @@ use crate::{
     render_arithmetic::RenderArithmetic,
     renderer::Renderer,
     sample::{Output, Sample},
-    stage::{contact::DistanceField, recursion::Sounded, vibration::Vibration, wall::Wall},
+    stage::{contact::DistanceField, recursion::VibrationSample, vibration::Vibration, wall::Wall},
     state::State,
     texture::Texture,
 };
@@ -85,7 +85,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         state: &mut State<A>,
         sample: &Sample<A>,
         mu: impl FnOnce(Quantity<A, MillimetrePerSecond>) -> Quantity<A, FrictionCoefficient>,
-        sound: impl FnOnce(&mut Vibration<A>, bool) -> Sounded<A>,
+        sound: impl FnOnce(&mut Vibration<A>, bool) -> VibrationSample<A>,
     ) -> Output<A> {
         let Touched {
             field,
@@ -134,7 +134,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         // F_vib t̂: the vibration, in contact only.
         let sounding =
             flags.intersection(Flags::CONTACT.union(Flags::SAFE_STATE)) == Flags::CONTACT;
-        let Sounded { y, clamped } = sound(&mut state.vibration, sounding);
+        let VibrationSample { y, clamped } = sound(&mut state.vibration, sounding);
         let vibration_force = coupling.vib_mass * y;
         let axis = match self.config().vibration_axis {
             VibrationAxis::Tangent => state.direction.get(),

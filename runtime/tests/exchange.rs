@@ -7,7 +7,7 @@ use asperity_runtime::{
     Preparer, RenderArithmetic, Renderer, Sample, State, arithmetic::Scalar as _,
 };
 use asperity_tests::{
-    texture::{HostSlot, Kind, Texture, random},
+    texture::{HostSlot, Texture, TextureKind, random},
     trajectory::strokes,
 };
 use std::mem::MaybeUninit;
@@ -18,7 +18,7 @@ const DEPTH_M: f32 = 1e-3;
 
 /// A texture of this stiffness, and this loud wherever it is touched.
 fn texture(seed: u64, stiffness_n_m: f32, sigma_m_s2: f32) -> Texture {
-    let mut texture = random(seed, Kind::nyquist(8));
+    let mut texture = random(seed, TextureKind::nyquist(8));
     texture.coupling.stiffness_n_m = stiffness_n_m;
     for vertex in &mut texture.vertices {
         vertex.sigma_m_s2 = sigma_m_s2;

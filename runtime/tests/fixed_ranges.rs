@@ -3,7 +3,7 @@
 use crate::config_ranges::{ball, cuboid, on, plane, refusal, with};
 use asperity_formats::Asset;
 use asperity_runtime::{Arithmetic, Config, Fixed, LoadError, RenderArithmetic, Renderer};
-use asperity_tests::texture::{HostSlot, Kind, Texture, random};
+use asperity_tests::texture::{HostSlot, Texture, TextureKind, random};
 
 /// A field: its name, how it is set, what is taken and what is not, at 1 kHz.
 type Case = (&'static str, fn(&mut Config, f32), [f32; 2], [f32; 2]);
@@ -120,9 +120,9 @@ fn load<A: RenderArithmetic + Arithmetic>(texture: &Texture) -> Result<(), LoadE
 
 /// A texture whose grid reaches to a speed and a force, and whose loudest vertex is this loud.
 fn reaching(max_speed_mm_s: f32, max_force_n: f32, loudest_m_s2: f32) -> Texture {
-    let kind = Kind {
+    let kind = TextureKind {
         lattice: (3, 3),
-        ..Kind::nyquist(4)
+        ..TextureKind::nyquist(4)
     };
     let mut texture = random(1, kind);
     for (at, vertex) in texture.vertices.iter_mut().enumerate() {
@@ -173,7 +173,7 @@ fn fixed_point_takes_grids_and_levels_that_it_holds() {
 /// It is the product of gain and σ that counts.
 #[test]
 fn the_gain_of_a_model_makes_its_vertices_louder() {
-    let kind = Kind {
+    let kind = TextureKind {
         ar_order: 4,
         ma_order: 4,
         numerator: asperity_formats::Numerator::Lsf,

@@ -6,7 +6,7 @@ use asperity_runtime::{
     arithmetic::Scalar as _,
 };
 use asperity_tests::{
-    texture::{HostSlot, Kind, random},
+    texture::{HostSlot, TextureKind, random},
     trajectory::strokes,
 };
 
@@ -42,7 +42,7 @@ fn count<A: RenderArithmetic>(samples: &[Sample]) -> (Vec<Flags>, Counters) {
 }
 
 fn count_within<A: RenderArithmetic>(reach_m: f32, samples: &[Sample]) -> (Vec<Flags>, Counters) {
-    let bytes = random(1, Kind::nyquist(8)).encode();
+    let bytes = random(1, TextureKind::nyquist(8)).encode();
     let mut slot = Box::new(HostSlot::<A>::new());
     slot.load(&Asset::parse(&bytes).unwrap(), 1000.0).unwrap();
     let mut config = Config::default();

@@ -5,7 +5,7 @@ use asperity_formats::Asset;
 use asperity_runtime::{Config, Flags, HostTexture, Renderer, Sample, Solid, State};
 use asperity_tests::{
     force_limits::{ForceLimits, size},
-    texture::{Kind, random},
+    texture::{TextureKind, random},
 };
 use proptest::{collection::vec, prelude::*};
 use std::sync::OnceLock;
@@ -13,7 +13,7 @@ use std::sync::OnceLock;
 fn texture() -> &'static HostTexture {
     static TEXTURE: OnceLock<Box<HostTexture>> = OnceLock::new();
     TEXTURE.get_or_init(|| {
-        let mut texture = random(3, Kind::nyquist(20));
+        let mut texture = random(3, TextureKind::nyquist(20));
         // Loud and stiff, so that the limiter has work to do.
         texture.coupling.vib_s2_m = 1.0;
         texture.coupling.stiffness_n_m = 2000.0;

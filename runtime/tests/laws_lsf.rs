@@ -8,7 +8,7 @@ use asperity_tests::{
     oracle::polynomial,
     size::sized,
     stability::{largest_reflection, magnitudes},
-    texture::{HostSlot, Kind, Texture, random},
+    texture::{HostSlot, Texture, TextureKind, random},
 };
 use std::f64::consts::PI;
 
@@ -101,7 +101,7 @@ impl Corners {
 
     /// A texture with these corners: at rest without force, at the largest speed, at the largest force.
     fn texture(&self) -> Texture {
-        let kind = Kind {
+        let kind = TextureKind {
             ar_order: self.codes[0].len(),
             ma_order: 0,
             numerator: Numerator::None,
@@ -239,7 +239,7 @@ fn a_cluster_is_refused_by_the_name_of_its_model() {
             }
         })
         .collect();
-    let mut texture = random(1, Kind::nyquist(24));
+    let mut texture = random(1, TextureKind::nyquist(24));
     let mut slot = Box::new(HostSlot::<Float>::new());
     assert_eq!(load(&mut slot, &texture), Ok(()));
     let before = slot.filter_at(100.0, 1.0);

@@ -5,7 +5,7 @@ use asperity_formats::{Asset, Numerator};
 use asperity_runtime::HostTexture;
 use asperity_tests::{
     stability::largest_reflection,
-    texture::{Kind, Texture, random},
+    texture::{Texture, TextureKind, random},
 };
 use proptest::prelude::*;
 
@@ -58,7 +58,7 @@ proptest! {
         queries in prop::collection::vec((number(250.0), number(4.0)), 300),
     ) {
         let numerator = [Numerator::None, Numerator::Nyquist, Numerator::Lsf][kind];
-        let slot = load(&random(seed, Kind { ar_order, ma_order, numerator, lattice }));
+        let slot = load(&random(seed, TextureKind { ar_order, ma_order, numerator, lattice }));
         for (speed, force) in queries {
             check(&slot, ar_order, speed, force);
         }
@@ -86,9 +86,9 @@ fn slivers_of_any_thinness_give_convex_weights() {
             for from_far in [true, false] {
                 let mut texture = random(
                     5,
-                    Kind {
+                    TextureKind {
                         lattice: (4, 4),
-                        ..Kind::nyquist(8)
+                        ..TextureKind::nyquist(8)
                     },
                 );
                 for (index, vertex) in texture.vertices.iter_mut().enumerate() {
@@ -134,9 +134,9 @@ fn slivers_of_any_thinness_mix_what_their_neighbours_mix() {
         let thickness = 10.0_f32.powi(-exponent);
         let mut texture = random(
             6,
-            Kind {
+            TextureKind {
                 lattice: (4, 4),
-                ..Kind::nyquist(8)
+                ..TextureKind::nyquist(8)
             },
         );
         for (index, vertex) in texture.vertices.iter_mut().enumerate() {

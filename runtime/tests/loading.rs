@@ -5,11 +5,11 @@ use asperity_runtime::{
     Capacities, Capacity, Fixed, Float, HostCapacities, HostTexture, LoadError, Needs,
     RenderArithmetic, Texture,
 };
-use asperity_tests::texture::{HostSlot, Kind, random};
+use asperity_tests::texture::{HostSlot, TextureKind, random};
 use std::mem::MaybeUninit;
 
 /// 9 vertices, 8 triangles, orders 5 and 6, 13 taps of 100 samples at 10 kHz.
-const KIND: Kind = Kind {
+const KIND: TextureKind = TextureKind {
     ar_order: 5,
     ma_order: 6,
     numerator: Numerator::Lsf,
@@ -158,7 +158,7 @@ fn a_slot_that_refuses_keeps_what_it_had() {
     let mut slot = Box::new(Texture::<Capacities<9, 8, 8, 8, 1300>>::new());
     slot.load(&Asset::parse(&bytes).unwrap(), 2000.0).unwrap();
     let before = face(&slot);
-    let larger = random(2, Kind::nyquist(20)).encode();
+    let larger = random(2, TextureKind::nyquist(20)).encode();
     let larger = Asset::parse(&larger).unwrap();
     assert!(slot.load(&larger, 1000.0).is_err());
     assert!(slot.load_haptic(&[0; 100], 1000.0).is_err());

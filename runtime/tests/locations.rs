@@ -5,13 +5,13 @@ use asperity_formats::Asset;
 use asperity_runtime::{Fixed, Float, RenderArithmetic};
 use asperity_tests::{
     draw::Draw,
-    texture::{HostSlot, Kind, Texture, lattice, random},
+    texture::{HostSlot, Texture, TextureKind, lattice, random},
 };
 
 fn grid(seed: u64, lattice: (usize, usize)) -> Texture {
-    let kind = Kind {
+    let kind = TextureKind {
         lattice,
-        ..Kind::nyquist(4)
+        ..TextureKind::nyquist(4)
     };
     random(seed, kind)
 }

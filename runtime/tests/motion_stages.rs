@@ -13,7 +13,7 @@ use asperity_runtime::{
 };
 use asperity_tests::{
     draw::Draw,
-    texture::{HostSlot, Kind, random},
+    texture::{HostSlot, TextureKind, random},
 };
 
 fn solids() -> [Solid; 4] {
@@ -248,7 +248,7 @@ fn the_direction_of_motion_is_kept_below_a_tenth_of_a_millimetre_a_second() {
 #[test]
 fn an_impact_is_as_fast_and_comes_from_as_far_as_the_configuration_says() {
     fn check<A: RenderArithmetic>() {
-        let bytes = random(1, Kind::nyquist(4)).encode();
+        let bytes = random(1, TextureKind::nyquist(4)).encode();
         let mut slot = Box::new(HostSlot::<A>::new());
         slot.load(&Asset::parse(&bytes).unwrap(), 1000.0).unwrap();
         let mut config = Config::default().tap;

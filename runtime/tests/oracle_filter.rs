@@ -6,7 +6,7 @@ use asperity_tests::{
     draw::Draw,
     oracle::{Texture, polynomial},
     spectrum::model_power,
-    texture::{HostSlot, Kind, random},
+    texture::{HostSlot, TextureKind, random},
 };
 
 fn load<A: RenderArithmetic>(bytes: &[u8]) -> (Box<HostSlot<A>>, Texture) {
@@ -65,9 +65,9 @@ fn largest_error_db<A: RenderArithmetic>() -> f64 {
         .enumerate()
     {
         for order in [1, 2, 3, 4, 8, 13, 20, 21, 24] {
-            let kind = Kind {
+            let kind = TextureKind {
                 numerator,
-                ..Kind::nyquist(order)
+                ..TextureKind::nyquist(order)
             };
             let bytes = random(seed as u64 * 100 + order as u64, kind).encode();
             let (slot, oracle) = load::<A>(&bytes);
@@ -99,7 +99,7 @@ fn armas_in_fixed_point_agree_too() {
 fn largest_arma_error_db<A: RenderArithmetic>() -> f64 {
     let mut worst = 0.0_f64;
     for (ar_order, ma_order) in [(20, 18), (14, 12), (24, 24), (5, 3), (6, 1)] {
-        let kind = Kind {
+        let kind = TextureKind {
             ar_order,
             ma_order,
             numerator: Numerator::Lsf,
@@ -129,7 +129,7 @@ fn the_mixture_in_fixed_point_is_too() {
 
 fn compare_mixtures<A: RenderArithmetic>(most: f64) {
     for seed in 0..5 {
-        let (slot, oracle) = load::<A>(&random(seed, Kind::nyquist(20)).encode());
+        let (slot, oracle) = load::<A>(&random(seed, TextureKind::nyquist(20)).encode());
         let mut draw = Draw::new(seed);
         let mut worst = 0.0_f64;
         let mut check = |speed: f32, force: f32| {

@@ -9,7 +9,7 @@ use asperity_runtime::{
 use asperity_tests::{
     draw::Draw,
     oracle::{Oracle, Tick},
-    texture::{HostSlot, Kind, random, random_law},
+    texture::{HostSlot, TextureKind, random, random_law},
     trajectory::{strokes, strokes_at},
 };
 
@@ -90,20 +90,20 @@ fn fresh(positions: Vec<[f32; 3]>) -> Vec<Sample> {
     positions.into_iter().map(Sample::at).collect()
 }
 
-fn kinds() -> [Kind; 5] {
-    let lsf = |ar_order, ma_order| Kind {
+fn kinds() -> [TextureKind; 5] {
+    let lsf = |ar_order, ma_order| TextureKind {
         ar_order,
         ma_order,
         numerator: Numerator::Lsf,
         lattice: (7, 6),
     };
-    let none = Kind {
+    let none = TextureKind {
         numerator: Numerator::None,
-        ..Kind::nyquist(21)
+        ..TextureKind::nyquist(21)
     };
     [
-        Kind::nyquist(4),
-        Kind::nyquist(20),
+        TextureKind::nyquist(4),
+        TextureKind::nyquist(20),
         none,
         lsf(20, 18),
         lsf(23, 24),
@@ -228,7 +228,7 @@ fn spheres_boxes_tilted_planes_and_the_other_axis() {
             normal: [0.3, -0.4, 2.0],
         },
     ];
-    let bytes = random(7, Kind::nyquist(20)).encode();
+    let bytes = random(7, TextureKind::nyquist(20)).encode();
     for (seed, solid) in (20..).zip(solids) {
         for vibration_axis in [VibrationAxis::Tangent, VibrationAxis::Binormal] {
             let config = Config {
@@ -244,7 +244,7 @@ fn spheres_boxes_tilted_planes_and_the_other_axis() {
 
 #[test]
 fn bad_samples_are_held_then_safe_then_ramped() {
-    let bytes = random(9, Kind::nyquist(20)).encode();
+    let bytes = random(9, TextureKind::nyquist(20)).encode();
     for seed in 30..35 {
         let mut draw = Draw::new(seed);
         let mut bad = 0;
@@ -277,7 +277,7 @@ fn bad_samples_are_held_then_safe_then_ramped() {
 #[test]
 fn other_rates_cut_offs_and_limits() {
     for (seed, rate) in [(40, 500.0), (41, 2000.0), (42, 4000.0)] {
-        let mut texture = random(seed, Kind::nyquist(10));
+        let mut texture = random(seed, TextureKind::nyquist(10));
         texture.sample_rate_hz = rate;
         let mut config = Config {
             servo_rate_hz: rate,

@@ -9,7 +9,7 @@ use asperity_runtime::{
 };
 use asperity_tests::{
     draw::Draw,
-    texture::{Kind, Texture, random},
+    texture::{Texture, TextureKind, random},
 };
 
 /// Lengths are in units of 0.05 mm: the hysteresis is between 2 and 3 of them, and the distance that arms the detector is 10.
@@ -62,10 +62,10 @@ impl Plate {
 }
 
 /// A place of the stylus, x and z; `None` is a bad sample.
-type Place = Option<[f64; 2]>;
+type StylusPosition = Option<[f64; 2]>;
 
 /// A walk that hovers, descends, strokes and leaves, at up to 0.2 m/s.
-fn walk(draw: &mut Draw, ticks: usize) -> Vec<Place> {
+fn walk(draw: &mut Draw, ticks: usize) -> Vec<StylusPosition> {
     let (mut x, mut z) = (0_i32, 20_i32);
     let (mut along, mut down) = (0, 0);
     let mut bad = 0;
@@ -116,7 +116,7 @@ impl Model<'_> {
     }
 
     /// The plate that is touched, and whether a tap starts; `None` where its speed is too near the slowest to tell.
-    fn tick(&mut self, place: Place) -> (Option<usize>, Option<bool>) {
+    fn tick(&mut self, place: StylusPosition) -> (Option<usize>, Option<bool>) {
         if let Some(place) = place {
             let at = self.nearest(place);
             if at != self.at {
@@ -182,7 +182,7 @@ impl Model<'_> {
     }
 }
 
-fn sample<A: RenderArithmetic>(place: Place) -> Sample<A> {
+fn sample<A: RenderArithmetic>(place: StylusPosition) -> Sample<A> {
     Sample::of(&place.map_or(Sample::STALE, |[x, z]| {
         Sample::at([x as f32 * UNIT_M, 0.0, z as f32 * UNIT_M])
     }))
@@ -198,7 +198,7 @@ fn textures(sigma_m_s2: f32) -> [Texture; 4] {
         (4, 500.0, 0.0),
     ]
     .map(|(seed, rate_hz, sigma_m_s2)| {
-        let mut texture = random(seed, Kind::nyquist(8));
+        let mut texture = random(seed, TextureKind::nyquist(8));
         texture.sample_rate_hz = rate_hz;
         texture.coupling.stiffness_n_m = 500.0;
         for vertex in &mut texture.vertices {

@@ -7,7 +7,7 @@ use asperity_runtime::{
     scene::HYSTERESIS_M,
 };
 use asperity_tests::{
-    texture::{HostSlot, Kind, random},
+    texture::{HostSlot, TextureKind, random},
     trajectory::strokes,
 };
 use std::mem::MaybeUninit;
@@ -39,9 +39,9 @@ fn ball(center_m: [f32; 3], radius_m: f32) -> Solid {
 /// A library of two textures, the second one twice as stiff.
 fn library(surfaces: &[SceneSurface]) -> Vec<u8> {
     let textures = [(200.0, 1), (400.0, 2)].map(|(stiffness_n_m, seed)| {
-        let kind = Kind {
+        let kind = TextureKind {
             lattice: (3, 3),
-            ..Kind::nyquist(8)
+            ..TextureKind::nyquist(8)
         };
         let mut texture = random(seed, kind);
         texture.coupling.stiffness_n_m = stiffness_n_m;
@@ -338,7 +338,7 @@ fn a_scene_says_which_texture_or_surface_it_refuses() {
 
 #[test]
 fn a_library_without_surfaces_is_no_scene() {
-    let texture = random(1, Kind::nyquist(4)).encode();
+    let texture = random(1, TextureKind::nyquist(4)).encode();
     let mut out = vec![0; 1 << 17];
     let named: [(&str, &[u8]); 1] = [("a", &texture)];
     let len = asperity_formats::library::encode_library(&named, &mut out).unwrap();

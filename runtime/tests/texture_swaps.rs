@@ -6,13 +6,13 @@ use asperity_runtime::{
     Config, Exchange, Fixed, Flags, Float, HostCapacities, RenderArithmetic, Renderer, Sample,
     State, arithmetic::Scalar as _, stage::vibration::LAG_SAMPLES,
 };
-use asperity_tests::texture::{HostSlot, Kind, Texture, random};
+use asperity_tests::texture::{HostSlot, Texture, TextureKind, random};
 use std::mem::MaybeUninit;
 
 const DEPTH_M: f32 = 1e-3;
 
 fn texture(seed: u64, order: usize, stiffness_n_m: f32, sigma_m_s2: f32) -> Texture {
-    let mut texture = random(seed, Kind::nyquist(order));
+    let mut texture = random(seed, TextureKind::nyquist(order));
     texture.coupling.stiffness_n_m = stiffness_n_m;
     for vertex in &mut texture.vertices {
         vertex.sigma_m_s2 = sigma_m_s2;

@@ -4,8 +4,8 @@
 use crate::{
     error::{ApiError, refused},
     http::Status,
-    recipe::{Opened, What},
-    row::{Row, columns},
+    recipe::{Opened, Operation},
+    row::{TextureSummary, columns},
     texture::{Making, Texture, damaged},
     thumbnails::Thumbnails,
 };
@@ -37,17 +37,17 @@ pub struct Collection {
     name: String,
     /// Identifier that distinguishes it from others of its name.
     id: String,
-    place: Place,
+    storage: Storage,
     /// Where it lies is of no interest to those who see it.
     elsewhere: bool,
-    rows: Vec<Row>,
+    rows: Vec<TextureSummary>,
     columns: OnceLock<Arc<[u8]>>,
     thumbnails: Thumbnails,
 }
 
 /// Where the textures are.
 #[derive(Debug)]
-enum Place {
+enum Storage {
     Library(Mutex<Textures>),
     Folder { path: PathBuf, files: Vec<PathBuf> },
 }
@@ -110,11 +110,11 @@ impl Collection {
     }
 
     fn library(mut textures: Textures, id: String) -> Result<Self, TexturesError> {
-        let rows = textures.each(Meter::default, Row::of)?;
+        let rows = textures.each(Meter::default, TextureSummary::of)?;
         Ok(Self {
             name: name(textures.path()),
             id,
-            place: Place::Library(Mutex::new(textures)),
+            storage: Storage::Library(Mutex::new(textures)),
             elsewhere: false,
             rows,
             columns: OnceLock::new(),
@@ -149,9 +149,9 @@ impl Collection {
                 texture: None,
                 problem: e.into(),
             })?;
-            Ok(Row::of(meter, asset.name(), &asset))
+            Ok(TextureSummary::of(meter, asset.name(), &asset))
         };
-        let checked: Vec<Result<Row, TexturesError>> =
+        let checked: Vec<Result<TextureSummary, TexturesError>> =
             files.par_iter().map_init(Meter::default, row).collect();
         let mut damaged = Failures::new();
         let mut rows = Vec::with_capacity(files.len());
@@ -167,7 +167,7 @@ impl Collection {
         Ok(Self {
             name: name(path),
             id: String::new(),
-            place: Place::Folder {
+            storage: Storage::Folder {
                 path: path.to_owned(),
                 files,
             },
@@ -201,8 +201,8 @@ impl Collection {
     /// The folder, if it is one that people can reach.
     #[must_use]
     pub fn folder(&self) -> Option<&Path> {
-        match &self.place {
-            Place::Folder { path, .. } if !self.elsewhere => Some(path),
+        match &self.storage {
+            Storage::Folder { path, .. } if !self.elsewhere => Some(path),
             _ => None,
         }
     }
@@ -236,12 +236,12 @@ impl Collection {
             let help = "ask for one from 0 on";
             return Err(ApiError::new(Status::NotFound, error, help));
         }
-        let read = match &self.place {
-            Place::Library(textures) => {
+        let read = match &self.storage {
+            Storage::Library(textures) => {
                 let mut textures = textures.lock().unwrap_or_else(PoisonError::into_inner);
                 textures.texture(at)
             }
-            Place::Folder { files, .. } => asset_of(&files[at]),
+            Storage::Folder { files, .. } => asset_of(&files[at]),
         };
         read.map_err(|e| refused(&e))
     }
@@ -252,7 +252,7 @@ impl Collection {
     /// As [`asset`](Self::asset).
     pub(crate) fn texture(&self, at: usize) -> Result<Texture, ApiError> {
         let mut bytes = self.asset(at)?;
-        let Row { name, .. } = &self.rows[at];
+        let TextureSummary { name, .. } = &self.rows[at];
         if Asset::parse(&bytes).map_err(damaged)?.name() != name {
             // The name in the index counts.
             bytes = renamed(&bytes, name).map_err(|e| refused(&LowerError::from(e)))?;
@@ -264,22 +264,22 @@ impl Collection {
                 path.to_string_lossy().into_owned()
             }
         };
-        let what = |id: &str| match &self.place {
-            Place::Library(textures) => {
+        let operation = |id: &str| match &self.storage {
+            Storage::Library(textures) => {
                 let textures = textures.lock().unwrap_or_else(PoisonError::into_inner);
                 let library = Opened {
                     path: shown(textures.path()),
                     id: self.id.clone(),
                 };
                 let texture = name.clone();
-                What::Extract { library, texture }
+                Operation::Extract { library, texture }
             }
-            Place::Folder { files, .. } => What::File(Opened {
+            Storage::Folder { files, .. } => Operation::File(Opened {
                 path: shown(&files[at]),
                 id: id.to_owned(),
             }),
         };
-        Texture::new(bytes, Making::default(), what).map_err(damaged)
+        Texture::new(bytes, Making::default(), operation).map_err(damaged)
     }
 
     /// The picture of the texture at a place, PNG.

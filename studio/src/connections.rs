@@ -52,7 +52,7 @@ enum Stage {
 }
 
 /// An open connection, which is forgotten when this is dropped.
-pub(crate) struct Place {
+pub(crate) struct AdmittedConnection {
     all: Arc<Connections>,
     number: u64,
 }
@@ -68,7 +68,7 @@ impl Connections {
     }
 
     /// Admits a connection among the strangers. `None` where those that were shut for it do not end.
-    pub(crate) fn admit(self: &Arc<Self>, stream: &Arc<TcpStream>) -> Option<Place> {
+    pub(crate) fn admit(self: &Arc<Self>, stream: &Arc<TcpStream>) -> Option<AdmittedConnection> {
         let mut open = self.room(false, STRANGERS - 1)?;
         let number = open.next;
         open.next += 1;
@@ -78,7 +78,7 @@ impl Connections {
             trusted: false,
         };
         open.connections.insert(number, connection);
-        Some(Place {
+        Some(AdmittedConnection {
             all: Arc::clone(self),
             number,
         })
@@ -125,7 +125,7 @@ impl Connection {
     }
 }
 
-impl Place {
+impl AdmittedConnection {
     /// The connection has shown the token, and its request is answered from now on. `false` where all places of the user
     /// are at work.
     pub(crate) fn enter(&self) -> bool {
@@ -176,7 +176,7 @@ impl Place {
     }
 }
 
-impl Drop for Place {
+impl Drop for AdmittedConnection {
     fn drop(&mut self) {
         self.all.lock().connections.remove(&self.number);
         self.all.changed.notify_all();
@@ -191,26 +191,26 @@ mod tests {
     /// A connection whose thread reads until it is shut, as those of the server do.
     struct Reading {
         _client: TcpStream,
-        place: Arc<Place>,
+        connection: Arc<AdmittedConnection>,
     }
 
     fn connect(listener: &TcpListener, all: &Arc<Connections>) -> Reading {
         let client = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
         let stream = Arc::new(listener.accept().unwrap().0);
-        let place = all.admit(&stream).expect("strangers make room");
-        let place = Arc::new(place);
-        let held = Arc::downgrade(&place);
+        let connection = all.admit(&stream).expect("strangers make room");
+        let connection = Arc::new(connection);
+        let held = Arc::downgrade(&connection);
         thread::spawn(move || {
             let _ = (&*stream).read(&mut [0]);
             // Its place is given back here, as in the server.
-            if let Some(place) = held.upgrade() {
-                place.all.lock().connections.remove(&place.number);
-                place.all.changed.notify_all();
+            if let Some(connection) = held.upgrade() {
+                connection.all.lock().connections.remove(&connection.number);
+                connection.all.changed.notify_all();
             }
         });
         Reading {
             _client: client,
-            place,
+            connection,
         }
     }
 
@@ -223,18 +223,18 @@ mod tests {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let all = Connections::new(2);
         let connections: Vec<Reading> = (0..4).map(|_| connect(&listener, &all)).collect();
-        let place = |n: usize| &connections[n].place;
-        assert!(place(0).enter() && place(1).enter());
-        assert!(!place(2).enter(), "both are at work");
-        place(1).wait();
+        let connection = |n: usize| &connections[n].connection;
+        assert!(connection(0).enter() && connection(1).enter());
+        assert!(!connection(2).enter(), "both are at work");
+        connection(1).wait();
         // Two times are two, on coarse clocks too.
         thread::sleep(Duration::from_millis(2));
-        place(0).wait();
-        assert!(place(3).enter());
+        connection(0).wait();
+        assert!(connection(3).enter());
         assert_eq!(open(&all), [0, 2, 3], "1 was silent for longer");
-        assert!(place(0).enter(), "it has its place");
-        place(3).linger();
-        assert!(place(2).enter(), "one that lingers holds no place");
+        assert!(connection(0).enter(), "it has its place");
+        connection(3).linger();
+        assert!(connection(2).enter(), "one that lingers holds no place");
         assert_eq!(open(&all), [0, 2, 3]);
     }
 
@@ -243,12 +243,15 @@ mod tests {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let all = Connections::new(2);
         let users = [0, 1].map(|_| connect(&listener, &all));
-        assert!(users[0].place.enter() && users[1].place.enter());
-        users[1].place.wait();
+        assert!(users[0].connection.enter() && users[1].connection.enter());
+        users[1].connection.wait();
         let mut strangers: Vec<Reading> =
             (0..STRANGERS).map(|_| connect(&listener, &all)).collect();
-        strangers[9].place.linger();
-        let gone = [strangers[9].place.number, strangers[0].place.number];
+        strangers[9].connection.linger();
+        let gone = [
+            strangers[9].connection.number,
+            strangers[0].connection.number,
+        ];
         for _ in gone {
             strangers.push(connect(&listener, &all));
         }

@@ -67,7 +67,7 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 pub use browser::{BrowserError, show};
 pub use collection::{Collection, CollectionError};
-pub use device::{LiveDevice, LiveStatus, LiveTick, Percentiles, Wanted};
+pub use device::{LiveDevice, LiveStatus, LiveTick, Percentiles, RequestedTexture};
 pub use export::{ExportError, Exported, export};
 pub use module::{Module, ModuleError};
 pub use prompts::LoadPrompts;

@@ -14,11 +14,11 @@ const START: &str = "0";
 /// Libraries by identifier, as long as the server runs.
 pub(crate) struct LibraryStore {
     start: Option<Arc<Collection>>,
-    dropped: Mutex<Dropped>,
+    opened: Mutex<OpenedLibraries>,
 }
 
 #[derive(Default)]
-struct Dropped {
+struct OpenedLibraries {
     /// Total number dropped.
     count: u64,
     /// The last ones, the newest at the end.
@@ -36,7 +36,7 @@ impl LibraryStore {
     pub(crate) fn new(start: Option<Collection>) -> Self {
         Self {
             start: start.map(Arc::new),
-            dropped: Mutex::default(),
+            opened: Mutex::default(),
         }
     }
 
@@ -50,15 +50,15 @@ impl LibraryStore {
 
     /// Keeps a library that was dropped; the oldest makes room for it.
     pub(crate) fn keep(&self, library: Collection) -> LibraryHandle {
-        let mut dropped = self.dropped.lock().unwrap_or_else(PoisonError::into_inner);
-        dropped.count += 1;
+        let mut opened = self.opened.lock().unwrap_or_else(PoisonError::into_inner);
+        opened.count += 1;
         let handle = LibraryHandle {
-            id: dropped.count.to_string(),
+            id: opened.count.to_string(),
             library: Arc::new(library),
         };
-        dropped.kept.push_back(handle.clone());
-        while dropped.kept.len() > MOST {
-            dropped.kept.pop_front();
+        opened.kept.push_back(handle.clone());
+        while opened.kept.len() > MOST {
+            opened.kept.pop_front();
         }
         handle
     }
@@ -68,8 +68,8 @@ impl LibraryStore {
     /// # Errors
     /// Where there is none, or no longer.
     pub(crate) fn get(&self, id: &str) -> Result<LibraryHandle, ApiError> {
-        let dropped = self.dropped.lock().unwrap_or_else(PoisonError::into_inner);
-        let found = dropped.kept.iter().find(|handle| handle.id == id).cloned();
+        let opened = self.opened.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = opened.kept.iter().find(|handle| handle.id == id).cloned();
         let start = || self.start().filter(|handle| handle.id == id);
         found.or_else(start).ok_or_else(|| {
             ApiError::new(

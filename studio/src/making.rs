@@ -4,7 +4,7 @@
 use crate::{
     error::ApiError,
     prompts::Loaded,
-    recipe::What,
+    recipe::Operation,
     texture::{Making, Texture, damaged},
 };
 use asperity::{
@@ -40,8 +40,8 @@ pub(crate) fn compile(loaded: &Loaded, text: &str, seed: u64) -> Result<Texture,
         ..Making::default()
     };
     let prompt = text.to_owned();
-    let what = |_: &str| What::Compile { prompt, seed };
-    Texture::new(compiled.lowered.bytes, making, what).map_err(damaged)
+    let operation = |_: &str| Operation::Compile { prompt, seed };
+    Texture::new(compiled.lowered.bytes, making, operation).map_err(damaged)
 }
 
 /// A draft has no picture, as with `--no-preview`: drawing one takes longer than all else, and what is felt and verified
@@ -72,12 +72,12 @@ pub(crate) fn edit(
     let mix = editor
         .change(&asset, Some(&edit), &options(draft))
         .map_err(|e| ApiError::of(&e))?;
-    let what = What::Edit {
+    let operation = Operation::Edit {
         texture: texture.id().to_owned(),
         edit,
         draft,
     };
-    mixed(&editor, mix, &[texture], what)
+    mixed(&editor, mix, &[texture], operation)
 }
 
 /// A texture between two, as `asperity blend`.
@@ -94,13 +94,13 @@ pub(crate) fn blend(
     let mix = editor
         .blend(&a.parsed()?, &b.parsed()?, t, &options(draft))
         .map_err(|e| ApiError::of(&e))?;
-    let what = What::Blend {
+    let operation = Operation::Blend {
         a: a.id().to_owned(),
         b: b.id().to_owned(),
         t,
         draft,
     };
-    mixed(&editor, mix, &[a, b], what)
+    mixed(&editor, mix, &[a, b], operation)
 }
 
 /// A texture that taps, slides and rubs like these, as `asperity compose`.
@@ -121,12 +121,12 @@ pub(crate) fn compose(
             &MixOptions::default(),
         )
         .map_err(|e| ApiError::of(&e))?;
-    let what = What::Compose {
+    let operation = Operation::Compose {
         tap: tap.id().to_owned(),
         slide: slide.id().to_owned(),
         friction: friction.id().to_owned(),
     };
-    mixed(&editor, mix, &[tap, slide, friction], what)
+    mixed(&editor, mix, &[tap, slide, friction], operation)
 }
 
 /// The texture that the latent of a recording decodes to, as `asperity encode`.
@@ -138,10 +138,10 @@ pub(crate) fn encode(loaded: &Loaded, texture: &Texture) -> Result<Texture, ApiE
     let mix = editor
         .encoded(&texture.parsed()?, None, &MixOptions::default())
         .map_err(|e| ApiError::of(&e))?;
-    let what = What::Encode {
+    let operation = Operation::Encode {
         texture: texture.id().to_owned(),
     };
-    mixed(&editor, mix, &[texture], what)
+    mixed(&editor, mix, &[texture], operation)
 }
 
 /// Compiles a mixture, with the report of the command.
@@ -149,7 +149,7 @@ fn mixed(
     editor: &LatentEditor<'_>,
     mix: Mix,
     others: &[&Texture],
-    what: What,
+    operation: Operation,
 ) -> Result<Texture, ApiError> {
     let compiled = driver::compile(&mix.source, &mix.request, &tools(editor.prompt_compiler()))
         .map_err(|failure| ApiError::of(failure.as_ref()))?;
@@ -159,7 +159,7 @@ fn mixed(
         others,
         ..Making::default()
     };
-    Texture::new(compiled.lowered.bytes, making, |_| what).map_err(damaged)
+    Texture::new(compiled.lowered.bytes, making, |_| operation).map_err(damaged)
 }
 
 fn tools(compiler: &PromptCompiler) -> Tools<'_> {

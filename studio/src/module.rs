@@ -3,7 +3,7 @@
 use crate::VERSION;
 use asperity_io::{
     diagnostic::Diagnostic,
-    input::{self, InputError, Kind},
+    input::{self, InputError, InputKind},
 };
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -53,7 +53,7 @@ impl Module {
     /// # Errors
     /// [`ModuleError`] for a file that is none, or of another version than the page.
     pub fn open(path: &Path) -> Result<Self, ModuleError> {
-        let bytes = input::read(path, Kind::StudioModule).map_err(|problem| InputError {
+        let bytes = input::read(path, InputKind::StudioModule).map_err(|problem| InputError {
             file: path.to_owned(),
             problem,
         })?;

@@ -4,7 +4,7 @@ use crate::{
     collection::Collection,
     error::{ApiError, refused},
     http::Status,
-    recipe::{Opened, What},
+    recipe::{Opened, Operation},
     texture::{Making, Texture, damaged, hash},
 };
 use asperity::{
@@ -25,7 +25,7 @@ const TELLING: usize = 64 << 10;
 const WANTED: &str = "an asset, a library, a HaTT material, a model, AHAP, .haptic or HJIF";
 
 /// The content of a file.
-pub(crate) enum Found {
+pub(crate) enum FileContent {
     Texture(Box<Texture>),
     /// A library with several textures.
     Library(Box<Collection>),
@@ -36,7 +36,7 @@ pub(crate) enum Found {
 ///
 /// # Errors
 /// As the command that reads such a file.
-pub(crate) fn open(file: &str, bytes: Vec<u8>) -> Result<Found, ApiError> {
+pub(crate) fn open(file: &str, bytes: Vec<u8>) -> Result<FileContent, ApiError> {
     let path = Path::new(file);
     let format = Format::of(&bytes[..bytes.len().min(TELLING)]);
     let ending = path.extension().unwrap_or_default();
@@ -47,7 +47,7 @@ pub(crate) fn open(file: &str, bytes: Vec<u8>) -> Result<Found, ApiError> {
         (Some(Format::Asset | Format::Library), _) => textures(file, bytes),
         (None, _) if ours => textures(file, bytes),
         (_, Some(imported)) => {
-            import(imported, file, &bytes).map(|texture| Found::Texture(Box::new(texture)))
+            import(imported, file, &bytes).map(|texture| FileContent::Texture(Box::new(texture)))
         }
         (Some(format), None) => {
             let wanted = WANTED.into();
@@ -64,13 +64,13 @@ pub(crate) fn open(file: &str, bytes: Vec<u8>) -> Result<Found, ApiError> {
 }
 
 /// An asset, or a library of one or more.
-fn textures(file: &str, bytes: Vec<u8>) -> Result<Found, ApiError> {
+fn textures(file: &str, bytes: Vec<u8>) -> Result<FileContent, ApiError> {
     let id = hash(&bytes);
     let path = Path::new(file);
     let mut textures = Textures::from_bytes(path, bytes).map_err(|e| refused(&e))?;
     if textures.names().is_some_and(|names| names.len() != 1) {
         let library = Collection::dropped(textures, id)?;
-        return Ok(Found::Library(Box::new(library)));
+        return Ok(FileContent::Library(Box::new(library)));
     }
     let indexed = textures.chosen_name(None).map_err(|e| refused(&e))?;
     let asset = textures.choose(None).map_err(|e| refused(&e))?;
@@ -79,9 +79,9 @@ fn textures(file: &str, bytes: Vec<u8>) -> Result<Found, ApiError> {
         ..Making::default()
     };
     let path = file.to_owned();
-    let texture = Texture::new(asset, making, |_| What::File(Opened { path, id }));
+    let texture = Texture::new(asset, making, |_| Operation::File(Opened { path, id }));
     let texture = texture.map_err(|e| refused(&textures.error(None, e.into())))?;
-    Ok(Found::Texture(Box::new(texture)))
+    Ok(FileContent::Texture(Box::new(texture)))
 }
 
 /// A file of another tool.
@@ -103,9 +103,9 @@ fn import(imported: Imported, file: &str, bytes: &[u8]) -> Result<Texture, ApiEr
         path: file.to_owned(),
         id: hash(bytes),
     };
-    let what = |_: &str| What::Import {
+    let operation = |_: &str| Operation::Import {
         kind: imported.name(),
         file: opened,
     };
-    Texture::new(compiled.lowered.bytes, making, what).map_err(damaged)
+    Texture::new(compiled.lowered.bytes, making, operation).map_err(damaged)
 }

@@ -11,7 +11,7 @@ use serde::Serialize;
 
 /// The figures of a texture.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Row {
+pub(crate) struct TextureSummary {
     /// The name in the index of its library.
     pub(crate) name: String,
     prompt: Option<String>,
@@ -38,7 +38,7 @@ struct Columns<'a> {
     certainty: Vec<Option<Certainty>>,
 }
 
-impl Row {
+impl TextureSummary {
     /// Measures the figures of an asset.
     pub(crate) fn of(meter: &mut Meter, name: &str, asset: &Asset<'_>) -> Self {
         let memory = remembered(asset).ok().flatten();
@@ -53,7 +53,12 @@ impl Row {
 }
 
 /// The columns of a library, JSON.
-pub(crate) fn columns(id: &str, name: &str, rows: &[Row], ids: Option<&[String]>) -> Vec<u8> {
+pub(crate) fn columns(
+    id: &str,
+    name: &str,
+    rows: &[TextureSummary],
+    ids: Option<&[String]>,
+) -> Vec<u8> {
     let columns = Columns {
         id,
         name,

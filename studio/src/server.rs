@@ -2,7 +2,7 @@
 
 use crate::{
     api,
-    connections::{Connections, Place},
+    connections::{AdmittedConnection, Connections},
     error::ApiError,
     guard::{Guard, Target},
     http::{Answer, Body, Head, Method, Status, Timed, read_head},
@@ -175,14 +175,14 @@ impl Server {
         let stream = Arc::new(stream);
         // Without it, answers are a little slower.
         let _ = stream.set_nodelay(true);
-        let Some(place) = connections.admit(&stream) else {
+        let Some(connection) = connections.admit(&stream) else {
             return turn_away(&stream);
         };
         let shared = Arc::clone(&self.shared);
         let of_thread = Arc::clone(&stream);
         let started = thread::Builder::new()
             .name("connection".into())
-            .spawn(move || shared.serve(&of_thread, &place));
+            .spawn(move || shared.serve(&of_thread, &connection));
         if started.is_err() {
             turn_away(&stream);
             thread::sleep(RECOVERY);
@@ -206,32 +206,32 @@ fn turn_away(stream: &TcpStream) {
 
 impl Shared {
     /// Answers the requests of a connection until it ends.
-    fn serve(&self, stream: &TcpStream, place: &Place) {
+    fn serve(&self, stream: &TcpStream, connection: &AdmittedConnection) {
         let mut buffer = Vec::new();
         loop {
             let mut timed = Timed::new(stream, self.limits.time);
             let head = match read_head(&mut timed, &mut buffer) {
                 Ok(Some(head)) => head,
                 Ok(None) => return,
-                Err(error) => return self.end(stream, place, &Answer::from(&error), false),
+                Err(error) => return self.end(stream, connection, &Answer::from(&error), false),
             };
             let bare = head.method == Method::Head;
             let below = match self.guard.pass(&head) {
-                Ok(below) if place.enter() => below,
-                Ok(_) => return self.end(stream, place, &busy(), bare),
-                Err(refusal) => return self.end(stream, place, &Answer::from(&refusal), bare),
+                Ok(below) if connection.enter() => below,
+                Ok(_) => return self.end(stream, connection, &busy(), bare),
+                Err(refusal) => return self.end(stream, connection, &Answer::from(&refusal), bare),
             };
             let mut body = Body::new(&mut timed, &mut buffer, head.length, head.expects_continue);
             let answer = self.answer(&head, below, &mut body);
             // What is left of a body would be read as a request.
             if head.closes || !body.is_over() {
-                return self.end(stream, place, &answer, bare);
+                return self.end(stream, connection, &answer, bare);
             }
             let sent = answer.send(&mut Timed::new(stream, self.limits.time), false, bare);
             if sent.is_err() {
                 return;
             }
-            place.wait();
+            connection.wait();
         }
     }
 
@@ -249,13 +249,19 @@ impl Shared {
     }
 
     /// Sends the last answer of a connection, and reads what still comes.
-    fn end(&self, stream: &TcpStream, place: &Place, answer: &Answer, bare: bool) {
+    fn end(
+        &self,
+        stream: &TcpStream,
+        connection: &AdmittedConnection,
+        answer: &Answer,
+        bare: bool,
+    ) {
         let mut timed = Timed::new(stream, self.limits.time);
         if answer.send(&mut timed, true, bare).is_err() || stream.shutdown(Shutdown::Write).is_err()
         {
             return;
         }
-        place.linger();
+        connection.linger();
         let mut rest = Timed::new(stream, LINGER.min(self.limits.time));
         let mut unwanted = [0; 1 << 14];
         while rest.read(&mut unwanted).is_ok_and(|count| count > 0) {}

@@ -9,7 +9,7 @@ use crate::{
     library_store::{LibraryHandle, LibraryStore},
     limiter::Limiter,
     making,
-    opening::{self, Found},
+    opening::{self, FileContent},
     prompts::{LoadPrompts, Loaded, Prompts},
     recent::Recent,
     texture::Texture,
@@ -27,7 +27,7 @@ pub struct Studio {
 }
 
 /// An opened file that the server keeps.
-pub(crate) enum Kept {
+pub(crate) enum OpenedFile {
     Texture(Arc<Texture>),
     Library(LibraryHandle),
 }
@@ -110,11 +110,11 @@ impl Studio {
     ///
     /// # Errors
     /// As a command that opens such a file.
-    pub(crate) fn open(&self, file: &str, bytes: Vec<u8>) -> Result<Kept, ApiError> {
+    pub(crate) fn open(&self, file: &str, bytes: Vec<u8>) -> Result<OpenedFile, ApiError> {
         let found = self.compute(|| opening::open(file, bytes))?;
         Ok(match found {
-            Found::Texture(texture) => Kept::Texture(self.keep(*texture)),
-            Found::Library(library) => Kept::Library(self.shelf.keep(*library)),
+            FileContent::Texture(texture) => OpenedFile::Texture(self.keep(*texture)),
+            FileContent::Library(library) => OpenedFile::Library(self.shelf.keep(*library)),
         })
     }
 

@@ -3,7 +3,7 @@
 use crate::{
     error::ApiError,
     prompts::Loaded,
-    recipe::{Recipe, What},
+    recipe::{Operation, Recipe},
     worklet_asset,
 };
 use asperity::{
@@ -91,14 +91,14 @@ pub(crate) struct Making<'a> {
 }
 
 impl Texture {
-    /// The texture of these bytes; `what` says how a command comes to them, from what names them.
+    /// The texture of these bytes; `operation` says how a command comes to them, from what names them.
     ///
     /// # Errors
     /// For damaged bytes.
     pub(crate) fn new(
         asset: Vec<u8>,
         making: Making<'_>,
-        what: impl FnOnce(&str) -> What,
+        operation: impl FnOnce(&str) -> Operation,
     ) -> Result<Self, FormatError> {
         let parsed = Asset::parse(&asset)?;
         let stored = parsed
@@ -111,7 +111,7 @@ impl Texture {
         };
         let others = making.others.iter().map(|other| other.recipe.as_ref());
         Ok(Self {
-            recipe: Recipe::new(others, &id, &document.name, what(&id)),
+            recipe: Recipe::new(others, &id, &document.name, operation(&id)),
             document,
             id,
             pixels: stored.map_or(SIZE, |picture| picture.width),
@@ -243,8 +243,8 @@ impl Texture {
     pub(crate) fn of_bytes(id: &str, bytes: &Arc<[u8]>) -> Self {
         let asset =
             asperity::emit::lower::lower(&asperity::sources::builtin::texture(), None).unwrap();
-        let what = |id: &str| What::Encode { texture: id.into() };
-        let texture = Self::new(asset.bytes, Making::default(), what).unwrap();
+        let operation = |id: &str| Operation::Encode { texture: id.into() };
+        let texture = Self::new(asset.bytes, Making::default(), operation).unwrap();
         Self {
             id: id.into(),
             asset: Arc::clone(bytes),

@@ -15,10 +15,10 @@ const MOST_BYTES: usize = 64 << 20;
 
 /// The pictures that were drawn last.
 #[derive(Debug, Default)]
-pub(crate) struct Thumbnails(Mutex<Kept>);
+pub(crate) struct Thumbnails(Mutex<ThumbnailCache>);
 
 #[derive(Debug, Default)]
-struct Kept {
+struct ThumbnailCache {
     drawn: HashMap<usize, Arc<[u8]>>,
     /// Places, the picture that was drawn first at the front.
     order: VecDeque<usize>,
@@ -53,12 +53,12 @@ impl Thumbnails {
         Ok(png)
     }
 
-    fn lock(&self) -> std::sync::MutexGuard<'_, Kept> {
+    fn lock(&self) -> std::sync::MutexGuard<'_, ThumbnailCache> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-impl Kept {
+impl ThumbnailCache {
     /// Keeps a picture; the oldest make room for it.
     fn keep(&mut self, at: usize, png: &Arc<[u8]>) {
         if self.drawn.insert(at, Arc::clone(png)).is_some() {

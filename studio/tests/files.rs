@@ -154,9 +154,9 @@ fn files_of_other_tools_open_to_the_bytes_of_their_import() {
         let expected = match kind {
             "hatt" => imported(&Hatt::new(&file), Fidelity::Full, None),
             "model" => imported(&ModelFile { file: file.clone() }, Fidelity::Full, size),
-            "haptic" => imported(&effects(effects::Kind::Haptic), Fidelity::Auto, size),
-            "ahap" => imported(&effects(effects::Kind::Ahap), Fidelity::Auto, size),
-            _ => imported(&effects(effects::Kind::Hjif), Fidelity::Auto, size),
+            "haptic" => imported(&effects(effects::EffectsKind::Haptic), Fidelity::Auto, size),
+            "ahap" => imported(&effects(effects::EffectsKind::Ahap), Fidelity::Auto, size),
+            _ => imported(&effects(effects::EffectsKind::Hjif), Fidelity::Auto, size),
         };
         let texture = &open(&SHARED, name, &bytes)["texture"];
         assert!(download(texture, "asp") == expected, "{name}");

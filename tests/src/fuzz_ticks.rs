@@ -4,7 +4,7 @@
 use crate::{
     draw::Draw,
     force_limits::ForceLimits,
-    texture::{HostSlot, Kind, random, random_law},
+    texture::{HostSlot, TextureKind, random, random_law},
 };
 use asperity_formats::{Asset, Numerator};
 use asperity_runtime::{
@@ -120,7 +120,7 @@ fn texture<A: RenderArithmetic>(seed: u64, ticks_per_sample: u8) -> Option<Box<H
     let mut draw = Draw::new(seed);
     let mut texture = random(
         seed,
-        Kind {
+        TextureKind {
             ar_order: 1 + draw.below(24),
             ma_order: 1 + draw.below(24),
             numerator: [Numerator::None, Numerator::Nyquist, Numerator::Lsf][draw.below(3)],

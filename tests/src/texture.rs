@@ -47,7 +47,7 @@ pub struct Texture {
 
 /// Kind of a random texture.
 #[derive(Debug, Clone, Copy)]
-pub struct Kind {
+pub struct TextureKind {
     /// Order of A(z).
     pub ar_order: usize,
     /// Order of B(z), with [`Numerator::Lsf`].
@@ -58,7 +58,7 @@ pub struct Kind {
     pub lattice: (usize, usize),
 }
 
-impl Kind {
+impl TextureKind {
     /// AR of an order with the zero at Nyquist, over a lattice of 7 × 6.
     #[must_use]
     pub const fn nyquist(ar_order: usize) -> Self {
@@ -106,7 +106,7 @@ fn well_conditioned(lsf: Vec<u16>) -> Vec<u16> {
 /// A random texture: a lattice over 250 mm/s × 4 N whose interior vertices are moved, σ that
 /// grows from 0 at the axes, and 13 taps at 10 kHz.
 #[must_use]
-pub fn random(seed: u64, kind: Kind) -> Texture {
+pub fn random(seed: u64, kind: TextureKind) -> Texture {
     let mut draw = Draw::new(seed);
     let (columns, rows) = kind.lattice;
     let (max_speed, max_force) = (250.0, 4.0);

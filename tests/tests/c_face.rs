@@ -14,7 +14,7 @@ use asperity_runtime::{
     quantity::{Quantity, unit::Newton},
 };
 use asperity_tests::{
-    texture::{Kind, random},
+    texture::{TextureKind, random},
     trajectory::strokes,
 };
 use std::{
@@ -115,8 +115,8 @@ fn program(name: &str, flags: &[&str]) -> PathBuf {
 /// A library of two textures, as bytes and as a file.
 fn shelf() -> (Vec<u8>, PathBuf) {
     let textures = [
-        random(1, Kind::nyquist(20)).encode(),
-        random(2, Kind::nyquist(4)).encode(),
+        random(1, TextureKind::nyquist(20)).encode(),
+        random(2, TextureKind::nyquist(4)).encode(),
     ];
     let named = [("cork", &*textures[0]), ("silk", &*textures[1])];
     let mut bytes = vec![0; asperity_formats::library::encoded_len(&named)];
@@ -295,8 +295,8 @@ fn expected_in_scene<A: RenderArithmetic>(bytes: &[u8]) -> (Vec<Option<usize>>, 
 /// A library of both textures, side by side on planes that meet at x = 0.
 fn patches() -> (Vec<u8>, PathBuf) {
     let textures = [
-        random(1, Kind::nyquist(20)).encode(),
-        random(2, Kind::nyquist(4)).encode(),
+        random(1, TextureKind::nyquist(20)).encode(),
+        random(2, TextureKind::nyquist(4)).encode(),
     ];
     let named = [("cork", &*textures[0]), ("silk", &*textures[1])];
     let half = |from: f32, to: f32, texture| SceneSurface {

@@ -7,13 +7,13 @@ use asperity_tests::{
     draw::Draw,
     load_then_tick::{Outcome, load_then_tick},
     size::sized_or,
-    texture::{Kind, random},
+    texture::{TextureKind, random},
 };
 
 /// A small asset of a random kind, patched in a few places.
 fn case(seed: u64) -> Vec<u8> {
     let mut draw = Draw::new(seed);
-    let kind = Kind {
+    let kind = TextureKind {
         ar_order: 1 + draw.below(24),
         ma_order: 1 + draw.below(24),
         numerator: [Numerator::None, Numerator::Nyquist, Numerator::Lsf][draw.below(3)],

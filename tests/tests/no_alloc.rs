@@ -5,7 +5,7 @@
 use asperity_formats::{Asset, Library, Numerator, library};
 use asperity_runtime::{Capacities, Config, HostTexture, Renderer, Sample, State};
 use asperity_tests::{
-    texture::{Kind, random},
+    texture::{TextureKind, random},
     trajectory::strokes,
 };
 use std::{
@@ -61,7 +61,7 @@ fn the_trap_works() {
 #[test]
 fn parsing_loading_and_ticking_allocate_nothing() {
     for numerator in [Numerator::None, Numerator::Nyquist, Numerator::Lsf] {
-        let kind = Kind {
+        let kind = TextureKind {
             ar_order: 20,
             ma_order: 18,
             numerator,
@@ -105,7 +105,7 @@ fn parsing_loading_and_ticking_allocate_nothing() {
 
 #[test]
 fn refusals_allocate_nothing_either() {
-    let bytes = random(1, Kind::nyquist(20)).encode();
+    let bytes = random(1, TextureKind::nyquist(20)).encode();
     let mut damaged = bytes.clone();
     let (refused, calls) = calls_of(|| {
         let mut refused = 0;

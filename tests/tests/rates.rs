@@ -15,7 +15,7 @@ use asperity_tests::{
     force_limits::ForceLimits,
     oracle::Interpolator,
     spectrum::{band_levels_db, periodogram, third_octaves},
-    texture::{Kind, random},
+    texture::{TextureKind, random},
 };
 
 /// Rate of the models, Hz.
@@ -37,13 +37,13 @@ fn config(ratio: u8) -> Config {
     }
 }
 
-fn kinds() -> [Kind; 3] {
-    let arma = Kind {
+fn kinds() -> [TextureKind; 3] {
+    let arma = TextureKind {
         ma_order: 18,
         numerator: Numerator::Lsf,
-        ..Kind::nyquist(20)
+        ..TextureKind::nyquist(20)
     };
-    [Kind::nyquist(20), Kind::nyquist(5), arma]
+    [TextureKind::nyquist(20), TextureKind::nyquist(5), arma]
 }
 
 /// Every query and contact lasts one sample. The output is the response of the low-pass to
@@ -115,7 +115,10 @@ fn stroke(renderer: &Renderer, slot: &HostTexture, seed: u64, seconds: f64) -> V
 /// rate of the models. The power above 550 Hz is at least 40 dB below that of the band.
 #[test]
 fn spectrum_and_level_are_kept_and_images_are_not_felt() {
-    let textures = [support::builtin(), random(3, Kind::nyquist(20)).encode()];
+    let textures = [
+        support::builtin(),
+        random(3, TextureKind::nyquist(20)).encode(),
+    ];
     for bytes in textures {
         let at = |ratio: u8| {
             let renderer = Renderer::new(&config(ratio)).unwrap();
@@ -160,13 +163,13 @@ fn samples_to_effect(slot: &HostTexture) -> usize {
 /// after 3 to 10 at order 4, after 5 to 10 with an MA part.
 #[test]
 fn a_change_is_heard_within_ten_samples() {
-    let arma = Kind {
+    let arma = TextureKind {
         ma_order: 20,
         numerator: Numerator::Lsf,
-        ..Kind::nyquist(20)
+        ..TextureKind::nyquist(20)
     };
     let mut cycles = Vec::new();
-    for kind in [Kind::nyquist(4), Kind::nyquist(20), arma] {
+    for kind in [TextureKind::nyquist(4), TextureKind::nyquist(20), arma] {
         let bytes = random(4, kind).encode();
         for ratio in [1, 2, 5, 10] {
             let slot = loaded(&bytes, ratio);
@@ -208,7 +211,7 @@ fn a_change_is_heard_within_ten_samples() {
 /// Taps at their source rate are those of the asset to the bit, and the force follows them.
 #[test]
 fn a_tap_at_its_source_rate_plays_its_samples() {
-    let bytes = random(6, Kind::nyquist(8)).encode();
+    let bytes = random(6, TextureKind::nyquist(8)).encode();
     let asset = Asset::parse(&bytes).unwrap();
     let slot = loaded(&bytes, 10);
     assert_eq!(asset.taps().sample_rate_hz(), 10_000.0);
@@ -297,7 +300,7 @@ fn forces_stay_within_their_limits() {
 /// At rest the state of the low-pass fades to zero, and not to denormals, which slow a processor.
 #[test]
 fn a_stroke_that_ends_ends_in_silence() {
-    let slot = loaded(&random(9, Kind::nyquist(20)).encode(), 10);
+    let slot = loaded(&random(9, TextureKind::nyquist(20)).encode(), 10);
     let mut vibration = Vibration::new(1);
     let (force, fraction) = (Quantity(2.0), Quantity(0.7));
     let mut step = |speed| {
@@ -312,7 +315,7 @@ fn a_stroke_that_ends_ends_in_silence() {
 
 #[test]
 fn a_rate_that_is_no_multiple_is_refused_and_the_slot_kept() {
-    let bytes = random(1, Kind::nyquist(20)).encode();
+    let bytes = random(1, TextureKind::nyquist(20)).encode();
     let asset = Asset::parse(&bytes).unwrap();
     let mut slot = loaded(&bytes, 5);
     let before = slot.filter_at(90.0, 1.0);
@@ -355,7 +358,7 @@ fn crossed(from: &[u8], to: Option<&[u8]>, seed: u64) -> Vec<Output> {
 /// sounds.
 #[test]
 fn textures_of_any_clock_follow_each_other() {
-    let mut texture = random(11, Kind::nyquist(20));
+    let mut texture = random(11, TextureKind::nyquist(20));
     let one = texture.encode();
     texture.models.reverse();
     let two = texture.encode();
@@ -403,7 +406,7 @@ fn textures_of_any_clock_follow_each_other() {
 /// query of its own, whatever the other one was doing.
 #[test]
 fn one_asset_at_two_rates_is_two_textures() {
-    let bytes = random(9, Kind::nyquist(20)).encode();
+    let bytes = random(9, TextureKind::nyquist(20)).encode();
     let slots = [1, 5].map(|ratio| loaded(&bytes, ratio));
     let mut vibration = Vibration::new(9);
     let mut draw = Draw::new(9);

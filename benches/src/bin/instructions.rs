@@ -113,7 +113,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// Every texture and motion at `ratio` kHz, models at 1 kHz.
-fn table(ratio: u32) -> Result<Vec<Row>, Box<dyn Error>> {
+fn table(ratio: u32) -> Result<Vec<InstructionCounts>, Box<dyn Error>> {
     let mut rows = Vec::new();
     println!(
         "executed instructions a tick at {ratio} kHz ({}, release)",
@@ -134,7 +134,7 @@ fn table(ratio: u32) -> Result<Vec<Row>, Box<dyn Error>> {
             print!("{a_tick:>9.0}");
             counts.push(a_tick);
         }
-        rows.push(Row {
+        rows.push(InstructionCounts {
             label,
             ticks: counts.iter().map(|count| *count as u64).collect(),
         });
@@ -236,16 +236,18 @@ impl fmt::Display for Counts {
 }
 
 /// Executed instructions of a texture's ticks, in the order of [`Motion::ALL`].
-struct Row {
+struct InstructionCounts {
     label: &'static str,
     ticks: Vec<u64>,
 }
 
 /// Returns the figures that pages quote: the ticks at 1 kHz, and samples the usual way.
-fn figures(rows: &[Row], usual: &[u64]) -> Set {
-    let count = |row: &Row| figures::count(row.ticks.iter().copied().max().unwrap_or_default());
+fn figures(rows: &[InstructionCounts], usual: &[u64]) -> Set {
+    let count = |row: &InstructionCounts| {
+        figures::count(row.ticks.iter().copied().max().unwrap_or_default())
+    };
     let least = rows[0].ticks.iter().copied().min().unwrap_or_default();
-    let line = |row: &Row| {
+    let line = |row: &InstructionCounts| {
         let cells: Vec<String> = row.ticks.iter().map(u64::to_string).collect();
         format!("| {} | {} |\n", row.label, cells.join(" | "))
     };

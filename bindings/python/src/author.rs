@@ -123,13 +123,13 @@ pub(crate) fn compile(
 ///     For a text encoder or back end that does not exist.
 /// AsperityError
 ///     Where the folder is no model, does not fit the encoder, or a library is missing.
-#[pyclass(frozen, module = "asperity")]
-pub(crate) struct Author {
-    pub(crate) author: prompt::PromptCompiler,
+#[pyclass(name = "Author", frozen, module = "asperity")]
+pub(crate) struct PromptCompiler {
+    pub(crate) compiler: prompt::PromptCompiler,
 }
 
 #[pymethods]
-impl Author {
+impl PromptCompiler {
     #[new]
     #[pyo3(signature = (model=None, *, text_encoder="minilm", backend="portable"))]
     fn new(
@@ -144,8 +144,8 @@ impl Author {
             let remedy = "give a model that was, as model=DIR";
             return Err(Failure::usage(message, remedy));
         }
-        let author = py.detach(|| setup.prompt_compiler().map_err(Failure::all))?;
-        Ok(Self { author })
+        let compiler = py.detach(|| setup.prompt_compiler().map_err(Failure::all))?;
+        Ok(Self { compiler })
     }
 
     /// Compiles a prompt into a texture; see `asperity.compile`.
@@ -180,7 +180,7 @@ impl Author {
         preview: Preview,
     ) -> PyResult<Texture> {
         let options = options(seed, fidelity, rate, preview);
-        let authored = py.detach(|| authored(&self.author, prompt, &options))?;
+        let authored = py.detach(|| authored(&self.compiler, prompt, &options))?;
         let report = authored.json();
         texture(py, authored, &report)
     }
@@ -188,7 +188,7 @@ impl Author {
 
 /// A prompt's texture, timed.
 fn authored(
-    author: &prompt::PromptCompiler,
+    compiler: &prompt::PromptCompiler,
     text: &str,
     options: &Options,
 ) -> Result<Compiled, Failure> {
@@ -199,7 +199,7 @@ fn authored(
     };
     let tools = Tools {
         clock: Clock(now),
-        ..Tools::of(author)
+        ..Tools::of(compiler)
     };
     driver::compile(&source, &options.request, &tools).map_err(error::stopped)
 }

@@ -170,12 +170,12 @@ pub(crate) fn export<'py>(
         symbol,
         keep_preview,
     };
-    let what = match &texture {
-        Exportable::Texture(texture) => What::Texture(texture.get()),
-        Exportable::Library(library) => What::Library(library.get()),
+    let target = match &texture {
+        Exportable::Texture(texture) => ExportTarget::Texture(texture.get()),
+        Exportable::Library(library) => ExportTarget::Library(library.get()),
     };
     let written = py.detach(|| {
-        let written = what.written(format, path.as_deref(), &options, source_options)?;
+        let written = target.written(format, path.as_deref(), &options, source_options)?;
         if let Some(path) = &path {
             written.write(path)?;
         }
@@ -194,12 +194,12 @@ pub(crate) fn export<'py>(
 }
 
 /// Object to export, without the interpreter.
-enum What<'a> {
+enum ExportTarget<'a> {
     Texture(&'a Texture),
     Library(&'a Library),
 }
 
-impl What<'_> {
+impl ExportTarget<'_> {
     fn written(
         &self,
         format: Format,

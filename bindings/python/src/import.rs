@@ -16,7 +16,7 @@ use asperity::{
     sources::{
         Source, Tools,
         builtin::Builtin,
-        effects::{Effects, Kind, Options},
+        effects::{Effects, EffectsKind, Options},
         hatt::{self, Hatt},
         model_file::ModelFile,
         recording::RecordingFolder,
@@ -351,8 +351,8 @@ pub(crate) fn import_effect(
             problem,
         })?;
         let kind = found
-            .and_then(Kind::of_format)
-            .or_else(|| Kind::of_name(&path));
+            .and_then(EffectsKind::of_format)
+            .or_else(|| EffectsKind::of_name(&path));
         let kind = kind.ok_or_else(|| {
             let message = format!("{}: neither AHAP, .haptic nor HJIF", path.display());
             Failure::new(message, "give a file of one of these formats")

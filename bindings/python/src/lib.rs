@@ -46,7 +46,7 @@ use pyo3::pymodule;
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use crate::author::{Author, compile};
+    use crate::author::{PromptCompiler, compile};
     #[pymodule_export]
     use crate::build::build;
     #[pymodule_export]

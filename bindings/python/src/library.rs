@@ -44,13 +44,13 @@ use std::{
 #[pyclass(frozen, subclass, module = "asperity")]
 pub(crate) struct Library {
     names: Vec<String>,
-    place: Place,
+    storage: Storage,
     /// JSON: what its build reported.
     report: Option<String>,
 }
 
 /// Where the textures are.
-enum Place {
+enum Storage {
     File(Mutex<Textures>),
     Memory(Vec<u8>),
 }
@@ -60,7 +60,7 @@ impl Library {
     pub(crate) fn in_file(names: Vec<String>, textures: Textures) -> Self {
         Self {
             names,
-            place: Place::File(Mutex::new(textures)),
+            storage: Storage::File(Mutex::new(textures)),
             report: None,
         }
     }
@@ -77,7 +77,7 @@ impl Library {
         };
         Ok(Self {
             names,
-            place: Place::Memory(bytes),
+            storage: Storage::Memory(bytes),
             report: None,
         })
     }
@@ -86,12 +86,12 @@ impl Library {
     pub(crate) fn choose(&self, choice: &Choice) -> Result<Texture, Failure> {
         let index = self.index(choice)?;
         let name = self.names.get(index).map(String::as_str);
-        let (bytes, path) = match &self.place {
-            Place::File(textures) => {
+        let (bytes, path) = match &self.storage {
+            Storage::File(textures) => {
                 let mut textures = held(textures);
                 (textures.texture(index)?, textures.path().to_owned())
             }
-            Place::Memory(bytes) => {
+            Storage::Memory(bytes) => {
                 let library = formats::Library::parse(bytes).map_err(in_data)?;
                 let texture = library.bytes(index).map_err(in_data)?;
                 (texture.to_vec(), Path::new("data").to_owned())
@@ -102,9 +102,9 @@ impl Library {
 
     /// The surfaces of its scene; none without a scene.
     pub(crate) fn surfaces(&self) -> Result<Vec<SceneSurface>, Failure> {
-        Ok(match &self.place {
-            Place::File(textures) => held(textures).surfaces()?,
-            Place::Memory(bytes) => {
+        Ok(match &self.storage {
+            Storage::File(textures) => held(textures).surfaces()?,
+            Storage::Memory(bytes) => {
                 let library = formats::Library::parse(bytes).map_err(in_data)?;
                 let scene = library.scene();
                 scene.map_or_else(Vec::new, |scene| scene.surfaces().collect())
@@ -114,9 +114,9 @@ impl Library {
 
     /// The bytes of the whole library.
     pub(crate) fn bytes(&self) -> Result<Cow<'_, [u8]>, Failure> {
-        Ok(match &self.place {
-            Place::File(textures) => Cow::Owned(held(textures).library()?.unwrap_or_default()),
-            Place::Memory(bytes) => Cow::Borrowed(bytes),
+        Ok(match &self.storage {
+            Storage::File(textures) => Cow::Owned(held(textures).library()?.unwrap_or_default()),
+            Storage::Memory(bytes) => Cow::Borrowed(bytes),
         })
     }
 
@@ -130,13 +130,13 @@ impl Library {
 
     /// The name of its file without the ending.
     pub(crate) fn name(&self) -> String {
-        match &self.place {
-            Place::File(textures) => {
+        match &self.storage {
+            Storage::File(textures) => {
                 let textures = held(textures);
                 let stem = textures.path().file_stem().unwrap_or_default();
                 stem.to_string_lossy().into_owned()
             }
-            Place::Memory(_) => "library".to_owned(),
+            Storage::Memory(_) => "library".to_owned(),
         }
     }
 
@@ -161,9 +161,9 @@ impl Library {
 
     /// Returns true if it has surfaces.
     pub(crate) fn has_scene(&self) -> Result<bool, Failure> {
-        Ok(match &self.place {
-            Place::File(textures) => held(textures).has_scene(),
-            Place::Memory(_) => !self.surfaces()?.is_empty(),
+        Ok(match &self.storage {
+            Storage::File(textures) => held(textures).has_scene(),
+            Storage::Memory(_) => !self.surfaces()?.is_empty(),
         })
     }
 

@@ -2,7 +2,7 @@
 
 use crate::{
     arguments::{Preview, within},
-    author::{self, Author},
+    author::{self, PromptCompiler},
     contents::Texture,
     error::{self, Failure},
 };
@@ -22,7 +22,7 @@ use pyo3::prelude::*;
 pub(crate) struct Mixing<'a, 'py> {
     pub(crate) name: Option<String>,
     pub(crate) preview: Preview,
-    pub(crate) author: Option<&'a Bound<'py, Author>>,
+    pub(crate) author: Option<&'a Bound<'py, PromptCompiler>>,
 }
 
 /// Blends two textures in the latent space of the model.
@@ -73,7 +73,7 @@ pub(crate) fn blend(
     t: f64,
     name: Option<String>,
     preview: Preview,
-    author: Option<&Bound<'_, Author>>,
+    author: Option<&Bound<'_, PromptCompiler>>,
 ) -> PyResult<Texture> {
     let t = within("t", t, &(0.0..=1.0))?;
     let (a, b) = (a.get(), b.get());
@@ -126,7 +126,7 @@ pub(crate) fn compose(
     friction: Option<&Bound<'_, Texture>>,
     name: Option<String>,
     preview: Preview,
-    author: Option<&Bound<'_, Author>>,
+    author: Option<&Bound<'_, PromptCompiler>>,
 ) -> PyResult<Texture> {
     let (tap, slide, friction) = (tap.get(), slide.get(), friction.unwrap_or(slide).get());
     let mixing = Mixing {
@@ -184,7 +184,7 @@ pub(crate) fn encode(
     part: Option<&str>,
     name: Option<String>,
     preview: Preview,
-    author: Option<&Bound<'_, Author>>,
+    author: Option<&Bound<'_, PromptCompiler>>,
 ) -> PyResult<Texture> {
     let parsed = |text: &str| {
         text.parse::<Part>().map_err(|rule| {
@@ -254,7 +254,7 @@ impl Mixing<'_, '_> {
             options.name.as_deref().map_or(Ok(()), check_name)?;
             let shared;
             let prompt_compiler = match own {
-                Some(own) => &own.author,
+                Some(own) => &own.compiler,
                 None => {
                     shared = author::shared()?;
                     &*shared

@@ -3,7 +3,7 @@
 use crate::{
     arguments::Preview,
     arrays,
-    author::Author,
+    author::PromptCompiler,
     contents::{Contents, Texture},
     error::Failure,
     mix::{self, Mixing},
@@ -234,7 +234,7 @@ impl Texture {
         prompt: Option<String>,
         name: Option<String>,
         preview: Preview,
-        author: Option<&Bound<'_, Author>>,
+        author: Option<&Bound<'_, PromptCompiler>>,
     ) -> PyResult<Self> {
         let sliders = mix::sliders([
             ("rougher", rougher),
@@ -282,7 +282,7 @@ impl Texture {
         py: Python<'_>,
         name: Option<String>,
         preview: Preview,
-        author: Option<&Bound<'_, Author>>,
+        author: Option<&Bound<'_, PromptCompiler>>,
     ) -> PyResult<Self> {
         let mixing = Mixing {
             name,

@@ -1,6 +1,6 @@
 //! `asperity builtin`.
 
-use super::one_texture::{Job, Wanted};
+use super::one_texture::{Job, RequestedOutputs};
 use crate::cli::Builtin as Arguments;
 use asperity::{
     pipeline::Request,
@@ -10,10 +10,10 @@ use asperity_console::Console;
 use asperity_io::diagnostic::Failures;
 
 pub(crate) fn run(args: &Arguments, console: Console) -> Result<(), Failures> {
-    let wanted = Wanted {
+    let requested = RequestedOutputs {
         emit_model: args.emit_model.as_deref(),
-        ..Wanted::of(&args.output, args.reporting)
+        ..RequestedOutputs::of(&args.output, args.reporting)
     };
-    let job = Job::open(wanted, &[], console)?;
+    let job = Job::open(requested, &[], console)?;
     job.run(&Builtin, &Request::default(), &Tools::default())
 }

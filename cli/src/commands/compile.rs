@@ -2,7 +2,7 @@
 
 use super::{
     diffusion,
-    one_texture::{Job, Wanted, request},
+    one_texture::{Job, RequestedOutputs, request},
 };
 use crate::cli::Compile;
 use asperity::{
@@ -31,12 +31,12 @@ pub(crate) fn run(args: &Compile, console: Console) -> Result<(), Failures> {
     prompt::check(&args.prompt).map_err(one)?;
     let mut inputs = args.inference.setup().files();
     inputs.extend(args.diffusion.iter().flat_map(|folder| files(folder)));
-    let wanted = Wanted {
+    let requested = RequestedOutputs {
         emit_model: args.emit_model.as_deref(),
         plot: args.plot.as_deref(),
-        ..Wanted::of(&args.output, args.reporting)
+        ..RequestedOutputs::of(&args.output, args.reporting)
     };
-    let job = Job::open(wanted, &inputs, console)?;
+    let job = Job::open(requested, &inputs, console)?;
     let prompt_compiler = args.inference.setup().prompt_compiler()?;
     let request = Request {
         name: args.name.clone(),

@@ -2,7 +2,7 @@
 
 use super::{
     inference,
-    one_texture::{Job, Wanted, request},
+    one_texture::{Job, RequestedOutputs, request},
 };
 use crate::cli::{ImportEffects, ImportModel, ImportRecording};
 use asperity::{
@@ -10,7 +10,7 @@ use asperity::{
     pipeline::Request,
     sources::{
         Source, Tools,
-        effects::{Effects, Kind, Options},
+        effects::{Effects, EffectsKind, Options},
         model_file::ModelFile,
         recording::RecordingFolder,
     },
@@ -22,13 +22,17 @@ pub(crate) fn model(args: &ImportModel, console: Console) -> Result<(), Failures
     let source = ModelFile {
         file: args.input.clone(),
     };
-    let wanted = Wanted::of(&args.output, args.reporting);
+    let requested = RequestedOutputs::of(&args.output, args.reporting);
     let request = request(args.fidelity, args.rate, &args.preview);
-    let job = Job::open(wanted, &source.inputs(), console)?;
+    let job = Job::open(requested, &source.inputs(), console)?;
     job.run(&source, &request, &Tools::default())
 }
 
-pub(crate) fn effects(args: &ImportEffects, kind: Kind, console: Console) -> Result<(), Failures> {
+pub(crate) fn effects(
+    args: &ImportEffects,
+    kind: EffectsKind,
+    console: Console,
+) -> Result<(), Failures> {
     let source = Effects {
         file: args.input.clone(),
         kind,
@@ -41,12 +45,12 @@ pub(crate) fn effects(args: &ImportEffects, kind: Kind, console: Console) -> Res
             mu: args.mu.into(),
         },
     };
-    let wanted = Wanted::of(&args.output, args.reporting);
+    let requested = RequestedOutputs::of(&args.output, args.reporting);
     let request = Request {
         name: args.name.clone(),
         ..request(args.fidelity, args.rate, &args.preview)
     };
-    let job = Job::open(wanted, &source.inputs(), console)?;
+    let job = Job::open(requested, &source.inputs(), console)?;
     job.run(&source, &request, &Tools::default())
 }
 
@@ -57,14 +61,14 @@ pub(crate) fn recording(args: &ImportRecording, console: Console) -> Result<(), 
     };
     let mut inputs = source.inputs();
     inputs.extend(model_files(args.model.as_deref()));
-    let wanted = Wanted {
+    let requested = RequestedOutputs {
         emit_model: args.emit_model.as_deref(),
         plot: args.plot.as_deref(),
         report: args.report.as_deref(),
-        ..Wanted::of(&args.output, args.reporting)
+        ..RequestedOutputs::of(&args.output, args.reporting)
     };
     let request = request(args.fidelity, args.rate, &args.preview);
-    let job = Job::open(wanted, &inputs, console)?;
+    let job = Job::open(requested, &inputs, console)?;
     let model = inference::completer(args.model.as_deref())?;
     let tools = Tools {
         model: Some(&model),

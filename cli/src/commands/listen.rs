@@ -2,7 +2,7 @@
 
 use super::input::Chosen;
 use crate::cli::Listen;
-use asperity::views::listen::{self, Gesture, Heard, Part, SOUND_HZ};
+use asperity::views::listen::{self, Gesture, Part, RenderedSound, SOUND_HZ};
 use asperity_console::Console;
 use asperity_io::{
     diagnostic::{Failures, one},
@@ -19,18 +19,20 @@ pub(crate) fn run(args: &Listen, console: Console) -> Result<(), Failures> {
     let chosen = Chosen::open(&args.file, args.texture.clone())?;
     let asset = chosen.asset()?;
     let session = Gesture::asked(args.speed, args.force, args.taps);
-    let heard = listen::listen(&asset, &session, args.rate, args.seed).map_err(one)?;
-    outputs.fill(sound, &heard.wav).map_err(one)?;
+    let rendered = listen::listen(&asset, &session, args.rate, args.seed).map_err(one)?;
+    outputs.fill(sound, &rendered.wav).map_err(one)?;
     outputs.commit().map_err(one)?;
-    console.warnings(&heard.warnings, args.json);
+    console.warnings(&rendered.warnings, args.json);
     if args.json {
-        console.json(&in_json(&args.output, &heard)).map_err(one)
+        console.json(&in_json(&args.output, &rendered)).map_err(one)
     } else {
-        console.report(&report(&args.output, &heard)).map_err(one)
+        console
+            .report(&report(&args.output, &rendered))
+            .map_err(one)
     }
 }
 
-fn in_json(path: &Path, heard: &Heard) -> Value {
+fn in_json(path: &Path, rendered: &RenderedSound) -> Value {
     let part = |part: &Part| {
         json!({
             "count": part.count,
@@ -40,15 +42,15 @@ fn in_json(path: &Path, heard: &Heard) -> Value {
     };
     json!({
         "output": display(path).to_string(),
-        "seconds": heard.seconds,
+        "seconds": rendered.seconds,
         "sample_rate_hz": SOUND_HZ,
-        "strokes": part(&heard.strokes),
-        "taps": part(&heard.taps),
-        "warnings": heard.warnings,
+        "strokes": part(&rendered.strokes),
+        "taps": part(&rendered.taps),
+        "warnings": rendered.warnings,
     })
 }
 
-fn report(path: &Path, heard: &Heard) -> String {
+fn report(path: &Path, rendered: &RenderedSound) -> String {
     let part = |part: &Part, one: &str, many: &str| match part.count {
         0 => None,
         count => Some(format!(
@@ -58,10 +60,10 @@ fn report(path: &Path, heard: &Heard) -> String {
             gain(part.gain_per_m_s2)
         )),
     };
-    let mut text = format!("{}: {:.2} s at 44.1 kHz\n", display(path), heard.seconds);
+    let mut text = format!("{}: {:.2} s at 44.1 kHz\n", display(path), rendered.seconds);
     for line in [
-        part(&heard.strokes, "stroke", "strokes"),
-        part(&heard.taps, "tap", "taps"),
+        part(&rendered.strokes, "stroke", "strokes"),
+        part(&rendered.taps, "tap", "taps"),
     ] {
         text += &line.map(|line| format!("  {line}")).unwrap_or_default();
     }

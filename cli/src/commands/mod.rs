@@ -24,7 +24,7 @@ mod studio;
 mod timings;
 
 use crate::cli::{Cli, Command, Import};
-use asperity::sources::effects::Kind;
+use asperity::sources::effects::EffectsKind;
 use asperity_console::{Console, clean_up_on_interrupt};
 use asperity_io::diagnostic::{Failures, one};
 
@@ -42,9 +42,11 @@ pub(crate) fn run(cli: Cli) -> Result<(), Failures> {
         Command::Import(Import::Hatt(args)) => import_hatt::run(&args, console),
         Command::Import(Import::Model(args)) => import::model(&args, console),
         Command::Import(Import::Recording(args)) => import::recording(&args, console),
-        Command::Import(Import::Haptic(args)) => import::effects(&args, Kind::Haptic, console),
-        Command::Import(Import::Ahap(args)) => import::effects(&args, Kind::Ahap, console),
-        Command::Import(Import::Hjif(args)) => import::effects(&args, Kind::Hjif, console),
+        Command::Import(Import::Haptic(args)) => {
+            import::effects(&args, EffectsKind::Haptic, console)
+        }
+        Command::Import(Import::Ahap(args)) => import::effects(&args, EffectsKind::Ahap, console),
+        Command::Import(Import::Hjif(args)) => import::effects(&args, EffectsKind::Hjif, console),
         Command::Export(args) => export::run(&args, console),
         Command::RecordCheck(args) => record_check::run(&args, console),
         Command::Build(args) => build::run(&args, console),

@@ -35,7 +35,7 @@ pub(super) fn request(
 }
 
 /// Requested outputs of a texture.
-pub(super) struct Wanted<'a> {
+pub(super) struct RequestedOutputs<'a> {
     /// The asset.
     pub(super) output: &'a Path,
     /// The texture before its reduction, as JSON.
@@ -48,7 +48,7 @@ pub(super) struct Wanted<'a> {
     pub(super) reporting: ReportOptions,
 }
 
-impl<'a> Wanted<'a> {
+impl<'a> RequestedOutputs<'a> {
     /// The asset alone.
     pub(super) fn of(output: &'a Path, reporting: ReportOptions) -> Self {
         Self {
@@ -63,7 +63,7 @@ impl<'a> Wanted<'a> {
 
 /// The outputs of a command, open.
 pub(super) struct Job<'a> {
-    wanted: Wanted<'a>,
+    requested: RequestedOutputs<'a>,
     outputs: Outputs,
     asset: OutputId,
     model: Option<OutputId>,
@@ -76,19 +76,19 @@ pub(super) struct Job<'a> {
 impl<'a> Job<'a> {
     /// Opens the outputs of a command that reads these files: a bad path costs no work.
     pub(super) fn open(
-        wanted: Wanted<'a>,
+        requested: RequestedOutputs<'a>,
         inputs: &[PathBuf],
         console: Console,
     ) -> Result<Self, Failures> {
         let mut outputs = Outputs::beside(inputs);
         Ok(Self {
-            asset: outputs.open(wanted.output).map_err(one)?,
-            model: outputs.open_if(wanted.emit_model).map_err(one)?,
-            plot: outputs.open_if(wanted.plot).map_err(one)?,
-            report: outputs.open_if(wanted.report).map_err(one)?,
+            asset: outputs.open(requested.output).map_err(one)?,
+            model: outputs.open_if(requested.emit_model).map_err(one)?,
+            plot: outputs.open_if(requested.plot).map_err(one)?,
+            report: outputs.open_if(requested.report).map_err(one)?,
             console: console.beside(&outputs),
             outputs,
-            wanted,
+            requested,
         })
     }
 
@@ -166,7 +166,7 @@ impl<'a> Job<'a> {
         let ReportOptions {
             json: as_json,
             timings,
-        } = self.wanted.reporting;
+        } = self.requested.reporting;
         console.warnings(&compiled.warnings, as_json);
         let printed = if as_json {
             json["stages_ms"] = pipeline.timings().json();

@@ -9,7 +9,7 @@ use asperity_console::Console;
 use asperity_formats::{Asset, Library};
 use asperity_io::{
     diagnostic::{Failures, one},
-    input::{self, InputError, Kind},
+    input::{self, InputError, InputKind},
     output::{Outputs, display},
     shown::counted,
 };
@@ -17,7 +17,7 @@ use serde_json::json;
 use std::io::BufWriter;
 
 /// Target of the trajectory: the surfaces of a scene, or a plane with a single texture.
-enum Felt<'a> {
+enum RenderTarget<'a> {
     Scene(Library<'a>),
     Texture(Box<Asset<'a>>),
 }
@@ -37,26 +37,29 @@ pub(crate) fn run(args: &Render, console: Console) -> Result<(), Failures> {
         Some(bytes) => bytes,
         None => textures.choose(wanted).map_err(one)?,
     };
-    let felt = if is_scene {
-        Library::parse(&bytes).map(Felt::Scene)
+    let target = if is_scene {
+        Library::parse(&bytes).map(RenderTarget::Scene)
     } else {
-        Asset::parse(&bytes).map(|asset| Felt::Texture(Box::new(asset)))
+        Asset::parse(&bytes).map(|asset| RenderTarget::Texture(Box::new(asset)))
     };
-    let felt = felt.map_err(|e| one(textures.error(wanted, e.into())))?;
-    let trajectory = input::open_as(&args.trajectory, Kind::Trajectory).map_err(|problem| {
-        one(InputError {
-            file: args.trajectory.clone(),
-            problem,
-        })
-    })?;
+    let target = target.map_err(|e| one(textures.error(wanted, e.into())))?;
+    let trajectory =
+        input::open_as(&args.trajectory, InputKind::Trajectory).map_err(|problem| {
+            one(InputError {
+                file: args.trajectory.clone(),
+                problem,
+            })
+        })?;
     let output = outputs.file(table);
     let (file, input) = (&args.trajectory, trajectory);
     let rows = BufWriter::new(&mut *output);
-    let rendered = match &felt {
-        Felt::Scene(library) => {
+    let rendered = match &target {
+        RenderTarget::Scene(library) => {
             render::render_scene(library, args.rate, file, input, rows, args.seed)
         }
-        Felt::Texture(asset) => render::render(asset, args.rate, file, input, rows, args.seed),
+        RenderTarget::Texture(asset) => {
+            render::render(asset, args.rate, file, input, rows, args.seed)
+        }
     };
     let report = rendered.map_err(|error| match error {
         RenderError::Write(source) => one(output.error("cannot write it", source)),

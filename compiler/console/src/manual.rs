@@ -84,11 +84,11 @@ mod tests {
     #[command(name = "try")]
     struct Try {
         #[command(subcommand)]
-        _what: What,
+        _what: TryCommand,
     }
 
     #[derive(Debug, Subcommand)]
-    enum What {
+    enum TryCommand {
         /// Go somewhere
         Go { _distance: u8 },
         /// Not for people

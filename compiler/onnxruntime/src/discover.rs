@@ -144,7 +144,7 @@ pub(crate) fn find() -> Result<(Discovery, Opened), NotFound> {
     })
 }
 
-type Found = (Discovery, Opened);
+type DiscoveredLibrary = (Discovery, Opened);
 
 #[derive(Default)]
 struct Search {
@@ -160,7 +160,7 @@ impl Search {
         });
     }
 
-    fn open(&mut self, source: Source, path: &Path) -> Option<Found> {
+    fn open(&mut self, source: Source, path: &Path) -> Option<DiscoveredLibrary> {
         match library::open(path.as_os_str()) {
             Ok(opened) => {
                 let discovery = Discovery {
@@ -178,7 +178,7 @@ impl Search {
     }
 
     /// A file, or a folder with the library in it.
-    fn named(&mut self, source: Source, path: &Path) -> Option<Found> {
+    fn named(&mut self, source: Source, path: &Path) -> Option<DiscoveredLibrary> {
         if path.is_dir() {
             return self.folders(source, vec![path.to_owned()]);
         }
@@ -191,7 +191,7 @@ impl Search {
         self.open(source, &path)
     }
 
-    fn folders(&mut self, source: Source, folders: Vec<PathBuf>) -> Option<Found> {
+    fn folders(&mut self, source: Source, folders: Vec<PathBuf>) -> Option<DiscoveredLibrary> {
         let mut any = false;
         for folder in &folders {
             for path in candidates::in_folder(folder) {
@@ -209,7 +209,7 @@ impl Search {
         None
     }
 
-    fn system(&mut self) -> Option<Found> {
+    fn system(&mut self) -> Option<DiscoveredLibrary> {
         let names = candidates::SYSTEM_NAMES;
         names
             .iter()

@@ -9,7 +9,7 @@ use crate::{
     pattern::Pattern,
     stems::stems,
     table::{Material, TABLE, Table},
-    words::{Said, read},
+    words::{VisualContent, read},
 };
 
 /// Wavelength at which a pattern has its own number of features, mm.
@@ -25,52 +25,52 @@ const SOFT_HZ: f64 = 300.0;
 /// feels.
 pub(crate) fn choose(description: &Description<'_>) -> (Pattern, Appearance) {
     let table: &Table = &TABLE;
-    let said = read(description.words, table);
-    let material = match said.material {
+    let content = read(description.words, table);
+    let material = match content.material {
         Some(material) => material.clone(),
         None => of_neighbours(description.nearest, table)
             .unwrap_or_else(|| of_feel(description.feel, table)),
     };
-    let mut look = Appearance {
-        colors: colors(&material, &said),
+    let mut appearance = Appearance {
+        colors: colors(&material, &content),
         cells: material.cells,
         fineness: 1.0,
         relief: material.relief,
         gloss: material.gloss,
-        slick: said.gloss,
+        slick: content.gloss,
         grain: (48, 0.0),
         seed: seed(description),
     };
     if let Some(feel) = description.feel {
-        felt(&mut look, feel);
+        felt(&mut appearance, feel);
     }
-    graded(&mut look, description.coarser);
-    (material.pattern, look)
+    graded(&mut appearance, description.coarser);
+    (material.pattern, appearance)
 }
 
 /// Grain of another size, half as many decades as it is, so that a picture shows both ends of a scale.
-fn graded(look: &mut Appearance, coarser: f64) {
+fn graded(appearance: &mut Appearance, coarser: f64) {
     let finer = libm::pow(coarser.clamp(1e-4, 1e4), -0.5).clamp(0.35, 3.0);
-    look.fineness *= finer as f32;
-    let (cells, strength) = look.grain;
-    look.grain = ((f64::from(cells) * finer) as i32, strength);
+    appearance.fineness *= finer as f32;
+    let (cells, strength) = appearance.grain;
+    appearance.grain = ((f64::from(cells) * finer) as i32, strength);
 }
 
 /// Level, wavelength, friction and hardness move the look within bounds that leave it the
 /// material's.
-fn felt(look: &mut Appearance, feel: Feel) {
+fn felt(appearance: &mut Appearance, feel: Feel) {
     let finer = libm::pow(
         (USUAL_MM / feel.wavelength_mm.max(1e-3)).clamp(0.1, 10.0),
         0.12,
     );
-    look.fineness = finer.clamp(0.85, 1.18) as f32;
+    appearance.fineness = finer.clamp(0.85, 1.18) as f32;
     let louder = ((feel.level_db - USUAL_DB) / 24.0).clamp(-0.6, 0.6);
-    look.relief *= (1.0 + 0.55 * louder) as f32;
-    look.slick += (0.5 * (USUAL_MU - feel.mu)).clamp(-0.15, 0.15) as f32;
+    appearance.relief *= (1.0 + 0.55 * louder) as f32;
+    appearance.slick += (0.5 * (USUAL_MU - feel.mu)).clamp(-0.15, 0.15) as f32;
     let cells = (WIDTH_MM / feel.wavelength_mm.clamp(0.3, 12.0)) as i32;
     let soft = (feel.hard_hz / SOFT_HZ).clamp(0.3, 1.0);
     let strength = 0.0016 * ((feel.level_db + 30.0) / 30.0).clamp(0.0, 1.5) * soft;
-    look.grain = (cells.clamp(5, 90), strength as f32);
+    appearance.grain = (cells.clamp(5, 90), strength as f32);
 }
 
 /// Picks the pattern with the largest share, in the mixed colours of the neighbours that have it.
@@ -141,7 +141,7 @@ fn of_feel(feel: Option<Feel>, table: &Table) -> Material {
 }
 
 /// The material's colours, dyed and brightened as the words say.
-fn colors(material: &Material, said: &Said<'_>) -> Vec<Rgb> {
+fn colors(material: &Material, content: &VisualContent<'_>) -> Vec<Rgb> {
     let dyed = dyed_parts(material.pattern);
     let base = material
         .colors
@@ -151,7 +151,7 @@ fn colors(material: &Material, said: &Said<'_>) -> Vec<Rgb> {
     let parts = material.colors.iter().enumerate();
     parts
         .map(|(part, &color)| {
-            let own = match said.color {
+            let own = match content.color {
                 Some(dye) if part < dyed => {
                     let ratio = libm::powf((luminance(color) / base).clamp(0.05, 20.0), 0.6);
                     let dye = lit(dye, ratio.clamp(0.35, 2.2));
@@ -159,7 +159,7 @@ fn colors(material: &Material, said: &Said<'_>) -> Vec<Rgb> {
                 }
                 _ => color,
             };
-            lit(own, said.brightness).map(|c| c.min(0.97))
+            lit(own, content.brightness).map(|c| c.min(0.97))
         })
         .collect()
 }
@@ -222,11 +222,11 @@ mod tests {
         ];
         assert_eq!(described("xyzzy", &nearest).0, Pattern::Velvet);
         let leathers = [("denim", 0.35), ("saddle hide", 0.3), ("smooth calf", 0.3)];
-        let (pattern, look) = described("xyzzy", &leathers);
+        let (pattern, appearance) = described("xyzzy", &leathers);
         assert_eq!(pattern, Pattern::Leather, "two that agree outweigh one");
         let (a, b) = (parse("#8c4c24").unwrap(), parse("#7a3c20").unwrap());
         let between = (luminance(a) + luminance(b)) / 2.0;
-        assert!((luminance(look.colors[0]) - between).abs() < 0.01);
+        assert!((luminance(appearance.colors[0]) - between).abs() < 0.01);
     }
 
     #[test]

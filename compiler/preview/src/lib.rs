@@ -74,16 +74,16 @@ impl Picture {
         if !SIZES.contains(&size) {
             return Err(SizeError(size));
         }
-        let (pattern, look) = choose::choose(description);
-        let mut surface = pattern::draw(pattern, &look, size as usize);
+        let (pattern, appearance) = choose::choose(description);
+        let mut surface = pattern::draw(pattern, &appearance, size as usize);
         let texels = surface.texels.par_iter_mut().with_min_len(surface::RUN);
         texels.enumerate().for_each(|(k, texel)| {
-            texel.height *= look.relief;
-            if look.grain.1 > 0.0 {
+            texel.height *= appearance.relief;
+            if appearance.grain.1 > 0.0 {
                 let place = |pixel: usize| (pixel as f32 + 0.5) / size as f32;
                 let (u, v) = (place(k % size as usize), place(k / size as usize));
-                let (cells, strength) = look.grain;
-                texel.height += strength * noise::gradient(u, v, cells, cells, look.seed ^ 5);
+                let (cells, strength) = appearance.grain;
+                texel.height += strength * noise::gradient(u, v, cells, cells, appearance.seed ^ 5);
             }
         });
         let pixels = light::shade(&surface);

@@ -16,7 +16,7 @@ const NOT: &[&str] = &["not", "no", "without", "than", "less", "never", "non"];
 
 /// Visual content of the words.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Said<'a> {
+pub(crate) struct VisualContent<'a> {
     pub(crate) material: Option<&'a Material>,
     pub(crate) color: Option<Rgb>,
     /// All finishes together.
@@ -26,10 +26,10 @@ pub(crate) struct Said<'a> {
 
 /// Reads a prompt. The material with the longest name counts; among equals the last one of the
 /// first phrase that has any, which is where English puts the head of a noun.
-pub(crate) fn read<'a>(text: &str, table: &'a Table) -> Said<'a> {
-    let mut said = Said {
+pub(crate) fn read<'a>(text: &str, table: &'a Table) -> VisualContent<'a> {
+    let mut content = VisualContent {
         brightness: 1.0,
-        ..Said::default()
+        ..VisualContent::default()
     };
     // A separator ends a phrase as a preposition does.
     let phrases: Vec<Vec<String>> = text
@@ -59,7 +59,7 @@ pub(crate) fn read<'a>(text: &str, table: &'a Table) -> Said<'a> {
             }
         }
     }
-    said.material = best.map(|(.., material)| material);
+    content.material = best.map(|(.., material)| material);
     for (p, phrase) in phrases.iter().enumerate() {
         for (k, word) in phrase.iter().enumerate() {
             let in_name = best.is_some_and(|(_, q, from, to, _)| p == q && (from..to).contains(&k));
@@ -68,15 +68,15 @@ pub(crate) fn read<'a>(text: &str, table: &'a Table) -> Said<'a> {
             }
             // A colour of something beside the subject counts only where it has none of its own.
             if let Some(color) = table.colors.get(word.as_str()) {
-                said.color = said.color.or(Some(*color));
+                content.color = content.color.or(Some(*color));
             }
             if let Some(Finish { brightness, gloss }) = table.finishes.get(word.as_str()) {
-                said.brightness *= brightness;
-                said.gloss += gloss;
+                content.brightness *= brightness;
+                content.gloss += gloss;
             }
         }
     }
-    said
+    content
 }
 
 fn negated(phrase: &[String], at: usize) -> bool {
@@ -111,9 +111,9 @@ mod tests {
 
     #[test]
     fn colours_and_finishes_are_read_beside_the_name() {
-        let said = read("wet dark red brick", &TABLE);
-        assert_eq!(said.color, parse("#c8282c"));
-        assert!(said.brightness < 0.6 && said.gloss > 0.3);
+        let content = read("wet dark red brick", &TABLE);
+        assert_eq!(content.color, parse("#c8282c"));
+        assert!(content.brightness < 0.6 && content.gloss > 0.3);
         assert_eq!(
             read("orange peel", &TABLE).color,
             None,

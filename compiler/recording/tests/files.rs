@@ -2,7 +2,7 @@
 
 use asperity_io::diagnostic::Diagnostic;
 use asperity_recording::{
-    check::{self, Kind, Severity},
+    check::{self, FindingKind, Severity},
     description::propose,
     reader,
 };
@@ -180,7 +180,7 @@ fn missing_values_and_short_gaps_are_bridged_and_told() {
     let (checked, timeline) = check::check(&recording).expect("checked");
     let drop_outs: Vec<String> = checked
         .at_least(Severity::Fault)
-        .filter(|f| f.kind == Kind::DropOut)
+        .filter(|f| f.kind == FindingKind::DropOut)
         .map(ToString::to_string)
         .collect();
     assert!(

@@ -2,7 +2,7 @@
 
 use asperity_io::diagnostic::Diagnostic;
 use asperity_recording::{
-    check::{self, Kind, Severity},
+    check::{self, FindingKind, Severity},
     reader::{self, Recording},
 };
 use std::{fmt::Write as _, fs, path::Path};
@@ -181,7 +181,7 @@ fn a_wav_of_floats_is_not_clipped_where_integers_would_be() {
     let (checked, _) = check::check(&recording).expect("checked");
     let clipped = checked
         .at_least(Severity::Note)
-        .find(|f| f.kind == Kind::Clipping);
+        .find(|f| f.kind == FindingKind::Clipping);
     assert!(clipped.is_none(), "{checked}");
 }
 

@@ -76,7 +76,7 @@ pub fn compile(
             .conversion(sourced.texture.grid.sample_rate_hz)
             .is_none()
         {
-            return Ok(taken(sourced, &asset, request, pipeline)?);
+            return Ok(passthrough(sourced, &asset, request, pipeline)?);
         }
         // Converted to another rate, it keeps all else.
         let parsed = asset::parsed(&asset)?;
@@ -115,8 +115,8 @@ pub fn compile_all<S: Source>(
     compiled.collect()
 }
 
-/// An asset that is taken as it is, under the name that was asked for.
-fn taken(
+/// An asset that is passed through unchanged, under the name that was asked for.
+fn passthrough(
     sourced: SourceOutput,
     asset: &[u8],
     request: &Request,

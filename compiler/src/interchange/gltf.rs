@@ -76,7 +76,7 @@ pub(super) fn write(texture: &TextureModel, clip: &Clip, size_px: u32) -> Result
     ];
     let buffer = square();
     let view = |offset: usize, length: usize, target: u32| json!({ "buffer": 0, "byteOffset": offset, "byteLength": length, "target": target });
-    let taken = |texture: usize, extras: Value| {
+    let reference = |texture: usize, extras: Value| {
         json!([{
             "texture": { "index": texture },
             "type": "High_Resolution",
@@ -85,12 +85,12 @@ pub(super) fn write(texture: &TextureModel, clip: &Clip, size_px: u32) -> Result
     };
     let mut haptic = json!({
         "name": texture.name,
-        "stiffness": taken(WHITE, json!({ "white_is_n_m": rounded(texture.wall.stiffness_n_m) })),
-        "friction": taken(WHITE, json!({ "white_is_mu": rounded(texture.friction.mu) })),
-        "vibrotactileTexture": taken(RELIEF, json!({ "side_m": SIDE_M })),
+        "stiffness": reference(WHITE, json!({ "white_is_n_m": rounded(texture.wall.stiffness_n_m) })),
+        "friction": reference(WHITE, json!({ "white_is_mu": rounded(texture.friction.mu) })),
+        "vibrotactileTexture": reference(RELIEF, json!({ "side_m": SIDE_M })),
     });
     if let (Some(found), Some(take)) = (vibration(clip), clip.strokes.first()) {
-        haptic["vibration"] = taken(
+        haptic["vibration"] = reference(
             WHITE,
             json!({
                 "white_is_rms_m_s2": rounded(found.rms_m_s2),

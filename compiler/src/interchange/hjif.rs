@@ -247,12 +247,12 @@ pub(super) fn play(document: &Document) -> Result<Track, Fault> {
             let gain = within(|| at("gain"), channel.gain, -1e4, 1e4)?;
             for (b, band) in channel.bands.iter().enumerate() {
                 for (e, effect) in band.effects.iter().enumerate() {
-                    let place = Place {
+                    let placement = EffectPlacement {
                         path: || at(&format!("bands[{b}].effects[{e}]")),
                         timescale,
                         gain,
                     };
-                    place.add(band, effect, &library, &mut track)?;
+                    placement.add(band, effect, &library, &mut track)?;
                 }
             }
         }
@@ -271,13 +271,13 @@ pub(super) fn play(document: &Document) -> Result<Track, Fault> {
 }
 
 /// An effect of a band.
-struct Place<F> {
+struct EffectPlacement<F> {
     path: F,
     timescale: f64,
     gain: f64,
 }
 
-impl<F: Fn() -> String> Place<F> {
+impl<F: Fn() -> String> EffectPlacement<F> {
     fn add(
         &self,
         band: &Band,

@@ -271,21 +271,21 @@ fn unit(kind: u64, sync: u64, ticks: i64, packets: &[u8]) -> Vec<u8> {
 struct Bits {
     bytes: Vec<u8>,
     /// Bits of the last byte that are taken; 0 for a full one.
-    taken: u32,
+    used_bits: u32,
 }
 
 impl Bits {
     /// The lowest `count` bits of a number; a negative one is given as its two's complement.
     fn put(&mut self, value: u64, count: u32) {
         for place in (0..count).rev() {
-            if self.taken == 0 {
+            if self.used_bits == 0 {
                 self.bytes.push(0);
             }
             let bit = (value >> place & 1) as u8;
             if let Some(last) = self.bytes.last_mut() {
-                *last |= bit << (7 - self.taken);
+                *last |= bit << (7 - self.used_bits);
             }
-            self.taken = (self.taken + 1) % 8;
+            self.used_bits = (self.used_bits + 1) % 8;
         }
     }
 

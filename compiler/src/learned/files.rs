@@ -2,7 +2,7 @@
 
 use asperity_io::{
     diagnostic::Fault,
-    input::{self, Kind},
+    input::{self, InputKind},
 };
 use std::{borrow::Cow, fmt::Display, path::Path};
 
@@ -57,10 +57,10 @@ impl Files {
     pub fn read(folder: &Path) -> Result<Self, Fault> {
         let bytes = |name: &str| {
             let path = folder.join(name);
-            input::read(&path, Kind::Network).map_err(|problem| Fault::from(problem).at(path))
+            input::read(&path, InputKind::Network).map_err(|problem| Fault::from(problem).at(path))
         };
         let path = folder.join("model.json");
-        let description = input::read_text(&path, Kind::Description);
+        let description = input::read_text(&path, InputKind::Description);
         let description = description.map_err(|problem| Fault::from(problem).at(path))?;
         Ok(Self {
             description: description.into(),

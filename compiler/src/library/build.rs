@@ -6,7 +6,7 @@ use super::{
     lock::Pinned,
     make::Maker,
     manifest::{Manifest, Options, Origin, order},
-    report::{Report, Row},
+    report::{Report, TextureReport},
     shard::Shard,
     spill::{Packed, Slot, Spill, no_room},
 };
@@ -290,10 +290,10 @@ impl<'a> Build<'a> {
         }
     }
 
-    fn rows(&self, textures: &[Texture]) -> Vec<Row> {
+    fn rows(&self, textures: &[Texture]) -> Vec<TextureReport> {
         let pairs = self.chosen.iter().zip(textures);
         pairs
-            .map(|((index, key), texture)| Row {
+            .map(|((index, key), texture)| TextureReport {
                 name: self.manifest.entries[*index].name.clone(),
                 source: self.manifest.entries[*index].origin.key(),
                 key: key.to_string(),

@@ -3,7 +3,7 @@
 use super::manifest;
 use asperity_io::{
     diagnostic::{Failures, one},
-    input::{self, InputError, Kind, Reach},
+    input::{self, InputError, InputKind, Reach},
 };
 use std::path::{Path, PathBuf};
 
@@ -31,9 +31,9 @@ impl BuildFile {
             .iter()
             .any(|e| extension.eq_ignore_ascii_case(e));
         let kind = if has_rows {
-            Kind::Manifest
+            InputKind::Manifest
         } else {
-            Kind::Scene
+            InputKind::Scene
         };
         let wrong = |problem| {
             one(InputError {

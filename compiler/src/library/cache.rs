@@ -12,7 +12,7 @@ use super::{
 };
 use crate::sources::key::{Key, Parts};
 use asperity_formats::Asset;
-use asperity_io::input::Kind;
+use asperity_io::input::InputKind;
 use asperity_io::output::AtomicFile;
 use std::{
     env,
@@ -26,7 +26,7 @@ const MAGIC: &[u8; 8] = b"ASPC\x01\0\0\0";
 /// Bytes before the figures: magic, digest, length of the figures.
 const HEAD: usize = 8 + 32 + 4;
 /// The most bytes of an entry: figures, which are a few lines, and an asset.
-const MOST: u64 = HEAD as u64 + 1024 * 1024 + Kind::Asset.max_bytes();
+const MOST: u64 = HEAD as u64 + 1024 * 1024 + InputKind::Asset.max_bytes();
 /// Variable that names a folder for the cache.
 const VARIABLE: &str = "ASPERITY_CACHE";
 

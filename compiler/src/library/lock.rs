@@ -3,7 +3,7 @@
 use super::manifest::CONFINED_REMEDY;
 use asperity_io::{
     diagnostic::Fault,
-    input::{self, InputProblem, Kind, Reach},
+    input::{self, InputKind, InputProblem, Reach},
     output::{AtomicFile, OutputError},
     toml_error::TomlError,
 };
@@ -101,7 +101,7 @@ impl Lock {
             let what = format!("{outside}, and the manifest is confined to its folder");
             return Err(Fault::new(what, CONFINED_REMEDY).at(file));
         }
-        let text = match input::read_text(&file, Kind::Settings) {
+        let text = match input::read_text(&file, InputKind::Settings) {
             Ok(text) => text,
             Err(InputProblem::Unreadable(error)) if error.kind() == io::ErrorKind::NotFound => {
                 if fs::symlink_metadata(&file).is_ok() {

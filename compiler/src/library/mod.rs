@@ -57,7 +57,7 @@ pub use loaded_library::LoadedLibrary;
 pub use lock::{Lock, Pinned};
 pub use manifest::Manifest;
 pub use merge::merge;
-pub use report::{Report, Row};
+pub use report::{Report, TextureReport};
 pub use setup::{Setup, model_files};
 pub use shard::Shard;
 pub use spill::Packed;

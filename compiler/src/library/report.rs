@@ -21,12 +21,12 @@ pub struct Report {
     /// Textures whose vibration the auto-gain lowered.
     pub lowered: usize,
     /// The textures in order of name.
-    pub textures: Vec<Row>,
+    pub textures: Vec<TextureReport>,
 }
 
 /// Report of a texture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Row {
+pub struct TextureReport {
     /// Its name.
     pub name: String,
     /// `prompt`, `import`, `asset`, `blend` or `compose`.
@@ -43,7 +43,7 @@ pub struct Row {
 }
 
 impl Report {
-    pub(super) fn new(textures: Vec<Row>, bytes: u64, shard: Option<Shard>) -> Self {
+    pub(super) fn new(textures: Vec<TextureReport>, bytes: u64, shard: Option<Shard>) -> Self {
         let cached = textures.iter().filter(|row| row.cached).count();
         let lowered = textures
             .iter()
@@ -77,7 +77,7 @@ impl fmt::Display for Report {
         if self.lowered > 0 {
             write!(f, "; auto-gain lowered the vibration of {}", self.lowered)?;
         }
-        let guess = |row: &&Row| {
+        let guess = |row: &&TextureReport| {
             row.facts
                 .certainty_level
                 .is_some_and(|level| level <= Certainty::Guess)

@@ -12,7 +12,7 @@ use crate::{
 };
 use asperity_io::{
     diagnostic::{Failures, Fault, one},
-    input::{self, InputError, Kind},
+    input::{self, InputError, InputKind},
 };
 use std::path::{Path, PathBuf};
 
@@ -165,7 +165,7 @@ fn folder_crc32(folder: &Path) -> Result<u32, Failures> {
     paths.sort();
     let mut crc = crc32fast::Hasher::new();
     for path in paths {
-        let bytes = input::read(&path, Kind::TextEncoder).map_err(|problem| {
+        let bytes = input::read(&path, InputKind::TextEncoder).map_err(|problem| {
             let file = path.clone();
             one(InputError { file, problem })
         })?;

@@ -7,7 +7,7 @@ use asperity_formats::{
 };
 use asperity_io::{
     diagnostic::{Failures, Fault, all, one},
-    input::{self, Kind, Reach},
+    input::{self, InputKind, Reach},
     shown::suggestion,
     toml_error::TomlError,
 };
@@ -91,7 +91,7 @@ impl Description {
     /// # Errors
     /// Every fault of its textures, and the first of its surfaces.
     pub fn read(file: &Path) -> Result<Self, Failures> {
-        let text = input::read_text(file, Kind::Scene);
+        let text = input::read_text(file, InputKind::Scene);
         let text = text.map_err(|problem| one(Fault::from(problem).at(file)))?;
         Self::within(file, &text, Reach::Anywhere, &Registry::default())
     }

@@ -35,5 +35,5 @@ pub use budget::{Budget, DEFAULT_SHARE};
 pub use build::{Built, build};
 pub use cost::Surfaces;
 pub use description::{Description, SurfaceEntry};
-pub use report::{Report, Row};
+pub use report::{Report, TextureCost};
 pub use target::Target;

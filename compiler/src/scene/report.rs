@@ -30,14 +30,14 @@ pub struct Report {
     /// Surfaces.
     pub surfaces: usize,
     /// The textures in order of name.
-    pub textures: Vec<Row>,
+    pub textures: Vec<TextureCost>,
     /// Textures that were left out, because no surface wears them.
     pub unused: Vec<String>,
 }
 
 /// Fidelity and cost of a texture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Row {
+pub struct TextureCost {
     /// Its name.
     pub name: String,
     /// `full`, `auto`, an order, or `auto` with a lower order.
@@ -64,7 +64,7 @@ pub struct Row {
     pub error_db: f64,
 }
 
-impl Row {
+impl TextureCost {
     fn new(name: &str, candidate: &Candidate) -> Self {
         let texture = &candidate.texture;
         Self {
@@ -111,7 +111,9 @@ impl Report {
             bytes_budget: budget.bytes,
             bytes,
             surfaces: scene.surfaces.len(),
-            textures: rows.map(|(entry, c)| Row::new(&entry.name, c)).collect(),
+            textures: rows
+                .map(|(entry, c)| TextureCost::new(&entry.name, c))
+                .collect(),
             unused: scene.unused(),
         }
     }

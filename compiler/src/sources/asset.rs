@@ -1,7 +1,7 @@
 //! An asset, or a texture of a library, taken as it is.
 
 use super::{
-    Kind, ManifestSource, Operand, Source, SourceOutput, Tools,
+    ManifestSource, Operand, Source, SourceKind, SourceOutput, Tools,
     key::{Key, Parts},
     libraries::OpenLibraries,
 };
@@ -16,7 +16,7 @@ use asperity_io::diagnostic::{Failure, Fault};
 use std::{path::PathBuf, sync::Arc};
 
 /// `asset` of a manifest.
-pub const KIND: Kind = Kind {
+pub const KIND: SourceKind = SourceKind {
     key: "asset",
     operand: Operand::File,
     open: |stated| {

@@ -4,7 +4,7 @@ use super::{
     ManifestSource,
     effects::{self, Effects},
     hatt::Hatt,
-    kind::{Kind, Operand, Stated},
+    kind::{Operand, SourceEntry, SourceKind},
     model_file::ModelFile,
 };
 use crate::{passes::reduce::Fidelity, pipeline::Request, views::preview};
@@ -18,7 +18,7 @@ use std::{
 };
 
 /// `import` of a manifest.
-pub const KIND: Kind = Kind {
+pub const KIND: SourceKind = SourceKind {
     key: "import",
     operand: Operand::File,
     open,
@@ -38,7 +38,7 @@ pub enum Imported {
     /// A model of one's own.
     Model,
     /// Effects of another tool.
-    Effects(effects::Kind),
+    Effects(effects::EffectsKind),
 }
 
 impl Imported {
@@ -53,14 +53,14 @@ impl Imported {
             Some(Format::Model) => return Some(Self::Model),
             _ => {}
         }
-        if let Some(kind) = found.and_then(effects::Kind::of_format) {
+        if let Some(kind) = found.and_then(effects::EffectsKind::of_format) {
             Some(Self::Effects(kind))
         } else if ends_in("xml") {
             Some(Self::Hatt)
         } else if ends_in("json") {
             Some(Self::Model)
         } else {
-            effects::Kind::of_name(file).map(Self::Effects)
+            effects::EffectsKind::of_name(file).map(Self::Effects)
         }
     }
 
@@ -102,8 +102,8 @@ impl Imported {
     }
 }
 
-fn open(stated: &Stated<'_>) -> Result<Arc<dyn ManifestSource>, Failure> {
-    let file = stated.path.to_owned();
+fn open(entry: &SourceEntry<'_>) -> Result<Arc<dyn ManifestSource>, Failure> {
+    let file = entry.path.to_owned();
     let found = input::format_of(&file).map_err(|problem| InputError {
         file: file.clone(),
         problem,

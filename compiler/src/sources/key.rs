@@ -1,6 +1,6 @@
 //! The key of a texture: everything that decides its bytes.
 
-use asperity_io::input::{self, InputError, InputProblem, Kind};
+use asperity_io::input::{self, InputError, InputKind, InputProblem};
 use sha2::{Digest as _, Sha256};
 use std::{
     fmt,
@@ -73,7 +73,7 @@ impl Parts {
     ///
     /// # Errors
     /// [`InputError`] for a file that cannot be read.
-    pub fn file(self, file: &Path, kind: Kind) -> Result<Self, InputError> {
+    pub fn file(self, file: &Path, kind: InputKind) -> Result<Self, InputError> {
         let bytes = input::read(file, kind).map_err(|problem| InputError {
             file: file.to_owned(),
             problem,
@@ -86,7 +86,7 @@ impl Parts {
     /// # Errors
     /// As [`file`](Self::file).
     pub fn stream(self, file: &Path) -> Result<Self, InputError> {
-        let kind = Kind::Log;
+        let kind = InputKind::Log;
         let mut content = Sha256::new();
         let read = input::open(file).and_then(|opened| {
             let mut limited = BufReader::new(opened.take(kind.max_bytes() + 1));

@@ -7,13 +7,13 @@ use std::{path::Path, sync::Arc};
 
 /// A kind of source: the key of a manifest that names it, and what becomes of its value.
 #[derive(Debug, Clone, Copy)]
-pub struct Kind {
+pub struct SourceKind {
     /// The key.
     pub key: &'static str,
     /// Type of its value.
     pub operand: Operand,
     /// The source of a value.
-    pub open: fn(&Stated<'_>) -> Result<Arc<dyn ManifestSource>, Failure>,
+    pub open: fn(&SourceEntry<'_>) -> Result<Arc<dyn ManifestSource>, Failure>,
     /// Keys of a texture that do not go with it: `texture`, `seed`, `edit` and other options.
     pub refuses: &'static [&'static str],
     /// Default fidelity.
@@ -35,7 +35,7 @@ pub enum Operand {
 
 /// Entry of a source in a manifest.
 #[derive(Debug, Clone, Copy)]
-pub struct Stated<'a> {
+pub struct SourceEntry<'a> {
     /// The value of its key.
     pub text: &'a str,
     /// The value as a path that can be opened.

@@ -30,7 +30,7 @@ pub mod recording;
 mod registry;
 
 pub use crate::compiled::Findings;
-pub use kind::{Kind, Operand, Stated};
+pub use kind::{Operand, SourceEntry, SourceKind};
 pub use registry::Registry;
 
 use crate::learned::Certainty;
@@ -144,7 +144,7 @@ impl<'a> Tools<'a> {
     pub(crate) fn file(
         &self,
         path: &Path,
-        kind: input::Kind,
+        kind: input::InputKind,
     ) -> Result<Cow<'a, [u8]>, InputProblem> {
         match self.given {
             Some((given, bytes)) if given == path => {

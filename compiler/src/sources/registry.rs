@@ -1,10 +1,10 @@
 //! The sources that a manifest can name, as a value: a program may add its own.
 
-use super::{asset, import, kind::Kind, prompt, recording};
+use super::{asset, import, kind::SourceKind, prompt, recording};
 
 /// The kinds of sources that manifests may name.
 #[derive(Debug, Clone)]
-pub struct Registry(Vec<Kind>);
+pub struct Registry(Vec<SourceKind>);
 
 /// The kinds of this crate.
 impl Default for Registry {
@@ -21,7 +21,7 @@ impl Default for Registry {
 impl Registry {
     /// With another kind, in the place of one of its key.
     #[must_use]
-    pub fn with(mut self, kind: Kind) -> Self {
+    pub fn with(mut self, kind: SourceKind) -> Self {
         self.0.retain(|known| known.key != kind.key);
         self.0.push(kind);
         self
@@ -29,7 +29,7 @@ impl Registry {
 
     /// The kind of a key.
     #[must_use]
-    pub fn get(&self, key: &str) -> Option<&Kind> {
+    pub fn get(&self, key: &str) -> Option<&SourceKind> {
         self.0.iter().find(|kind| kind.key == key)
     }
 

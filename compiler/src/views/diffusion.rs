@@ -13,7 +13,7 @@ use asperity_diffusion::{
 };
 use asperity_io::{
     diagnostic::Fault,
-    input::{self, InputProblem, Kind, Opened},
+    input::{self, InputKind, InputProblem, Opened},
     shown::plain,
 };
 use asperity_nn::Session;
@@ -105,21 +105,21 @@ pub fn open(folder: &Path, backend: BackendName) -> Result<Model, Fault> {
                       DIR`; docs/preview.md lists its parts";
         return Err(Fault::new("the diffusion folder has no such file", remedy).at(missing));
     }
-    let text = |part: &str, kind: Kind| {
+    let text = |part: &str, kind: InputKind| {
         let file = folder.join(part);
         input::read_text(&file, kind).map_err(|problem| Fault::from(problem).at(file))
     };
     let optional = |part: &str| -> Result<Option<String>, Fault> {
         match is_missing(&folder.join(part)) {
             true => Ok(None),
-            false => text(part, Kind::DiffusionConfig).map(Some),
+            false => text(part, InputKind::DiffusionConfig).map(Some),
         }
     };
     let texts = (
-        text(MODEL_INDEX, Kind::DiffusionConfig)?,
-        text(SCHEDULER_CONFIG, Kind::DiffusionConfig)?,
-        text(VOCABULARY, Kind::Vocabulary)?,
-        text(MERGES, Kind::Vocabulary)?,
+        text(MODEL_INDEX, InputKind::DiffusionConfig)?,
+        text(SCHEDULER_CONFIG, InputKind::DiffusionConfig)?,
+        text(VOCABULARY, InputKind::Vocabulary)?,
+        text(MERGES, InputKind::Vocabulary)?,
     );
     let configs = (
         optional(TOKENIZER_CONFIG)?,
@@ -183,7 +183,7 @@ fn network(
     };
     match backend {
         BackendName::Portable => {
-            let bytes = input::read(file, Kind::DiffusionNetwork).map_err(unreadable)?;
+            let bytes = input::read(file, InputKind::DiffusionNetwork).map_err(unreadable)?;
             running.session(bytes.into()).map_err(refused)
         }
         BackendName::OnnxRuntime => {

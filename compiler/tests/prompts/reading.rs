@@ -176,7 +176,7 @@ fn a_misspelling_is_put_right_and_said() {
     }
     let correction = read("velvit").correction.expect("a correction");
     assert_eq!(
-        (correction.said.as_str(), correction.taken.as_str()),
+        (correction.said.as_str(), correction.corrected.as_str()),
         ("velvit", "velvet")
     );
     assert_eq!(read("velvet").correction, None);

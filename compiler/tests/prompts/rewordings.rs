@@ -15,7 +15,7 @@ use std::{
 };
 
 #[derive(Deserialize)]
-struct Kind {
+struct RewordingKind {
     development: Vec<String>,
     held_out: Vec<String>,
 }
@@ -42,7 +42,7 @@ struct Reworded<'a> {
     distance: f64,
 }
 
-fn kinds() -> BTreeMap<String, Kind> {
+fn kinds() -> BTreeMap<String, RewordingKind> {
     let file = concat!(
         env!("CARGO_MANIFEST_DIR"),
         "/../training/corpora/evaluation/rewordings.toml"

@@ -2,7 +2,7 @@
 
 use asperity_formats::Asset;
 use asperity_host::device::Device;
-use asperity_host::device::fault_injection::{Faulty, InjectedFault};
+use asperity_host::device::fault_injection::{DeviceFaultInjector, InjectedFault};
 use asperity_host::device::supervised::{Plausible, Report, Supervised};
 use asperity_host::fault_plan::FaultPlan;
 use asperity_host::session_log::{Conditions, Entry, TextureInfo};
@@ -45,7 +45,7 @@ pub(crate) struct Period {
 
 /// The loop.
 pub(crate) struct Servo<'a, D> {
-    pub(crate) device: Supervised<Faulty<D>>,
+    pub(crate) device: Supervised<DeviceFaultInjector<D>>,
     renderer: Renderer,
     texture: &'a HostTexture,
     pub(crate) state: State,
@@ -59,7 +59,7 @@ impl<'a, D: Device> Servo<'a, D> {
         seed: u64,
     ) -> Self {
         let config = Config::default();
-        let faulty = Faulty::new(device, plan, seed);
+        let faulty = DeviceFaultInjector::new(device, plan, seed);
         Self {
             device: Supervised::new(faulty, &config, Plausible::default()),
             renderer: Renderer::new(&config).expect("a configuration"),
@@ -68,7 +68,7 @@ impl<'a, D: Device> Servo<'a, D> {
         }
     }
 
-    pub(crate) fn faulty(&self) -> &Faulty<D> {
+    pub(crate) fn faulty(&self) -> &DeviceFaultInjector<D> {
         self.device.device()
     }
 

@@ -2,7 +2,7 @@
 
 use asperity_host::device::dhd::Dhd;
 use asperity_host::device::fault_injection::InjectedFault;
-use asperity_host::device::fault_injection::trial::{AFTER, LASTS, Row, Trial};
+use asperity_host::device::fault_injection::trial::{AFTER, FaultResponse, LASTS, Trial};
 use asperity_host::device::openhaptics::OpenHaptics;
 use asperity_host::device::replay::{AtEnd, Replay};
 use asperity_host::device::{Description, Device, DeviceError, Reading};
@@ -54,7 +54,7 @@ fn run<D: Device>(
     kind: InjectedFault,
     warm_up: u32,
     hand: impl FnMut(u32),
-) -> Row {
+) -> FaultResponse {
     let trial = Trial {
         texture,
         config: &Config::default(),
@@ -71,7 +71,7 @@ fn stroke(period: u32) -> [f64; 3] {
 }
 
 /// A back end's name, and what each fault does on it.
-type Column = (&'static str, Box<dyn FnMut(InjectedFault) -> Row>);
+type Column = (&'static str, Box<dyn FnMut(InjectedFault) -> FaultResponse>);
 
 fn columns(texture: &'static HostTexture, bytes: &[u8]) -> Vec<Column> {
     // Mid-stroke: the third motion of the script and on.
@@ -140,7 +140,7 @@ fn every_fault_on_every_back_end() {
     let slew_n = limits.slew_n_s / Config::default().servo_rate_hz;
     let mut columns = columns(texture, &bytes);
     let mut rows = Vec::new();
-    let mut each = Row::TABLE_HEAD.to_owned();
+    let mut each = FaultResponse::TABLE_HEAD.to_owned();
     for kind in InjectedFault::ALL {
         let mut of_kind = Vec::new();
         for (name, column) in &mut columns {
@@ -163,7 +163,7 @@ fn periods(count: Option<u32>) -> String {
 }
 
 /// A line a fault, with the least and the most of all back ends.
-fn table(rows: &[(InjectedFault, Vec<Row>)]) -> String {
+fn table(rows: &[(InjectedFault, Vec<FaultResponse>)]) -> String {
     let mut table = String::from(
         "| fault | to the safe state | from there to 2 % of the force | whole force after the fault | steepest, N a period | \
          safe states | reports |\n|---|---:|---:|---:|---:|---:|---:|\n",
@@ -189,8 +189,8 @@ fn table(rows: &[(InjectedFault, Vec<Row>)]) -> String {
 
 /// The least and the most of a quantity, or the one value.
 fn range<T: PartialOrd + Copy>(
-    rows: &[Row],
-    of: impl Fn(&Row) -> T,
+    rows: &[FaultResponse],
+    of: impl Fn(&FaultResponse) -> T,
     text: impl Fn(T) -> String,
 ) -> String {
     let values = || rows.iter().map(&of);

@@ -164,7 +164,7 @@ fn positions_come_after_homing_and_are_those_of_the_grip() {
         let error = f64::from(reading.position_m[n]) - truth[n];
         assert!(error.abs() < 1.5e-4, "{reading:?} and {truth:?}");
     }
-    assert_eq!(socket.port().device.grip.felt().unhomed_forces, 0);
+    assert_eq!(socket.port().device.grip.motor_stats().unhomed_forces, 0);
 }
 
 #[test]
@@ -177,17 +177,17 @@ fn a_force_arrives_in_size_and_direction_and_ends_with_the_device() {
         let _ = falcon.read();
     }
     let port = socket.port();
-    let felt = port.device.grip.felt();
+    let stats = port.device.grip.motor_stats();
     let moved_m = port.device.grip.position_m()[2];
     drop(port);
-    assert!((felt.largest_force_n - 2.0).abs() < 0.05, "{felt:?}");
+    assert!((stats.largest_force_n - 2.0).abs() < 0.05, "{stats:?}");
     // 2 N against 200 N/m.
     assert!(moved_m > 0.006 && moved_m < 0.015, "{moved_m} m");
-    let before = felt.commands;
+    let before = stats.commands;
     drop(falcon);
-    let felt = socket.port().device.grip.felt();
-    assert!(felt.commands > before, "the motors were brought to zero");
-    assert!(felt.largest_step <= i32::from(Settings::default().motor_step));
+    let stats = socket.port().device.grip.motor_stats();
+    assert!(stats.commands > before, "the motors were brought to zero");
+    assert!(stats.largest_step <= i32::from(Settings::default().motor_step));
     assert_eq!(socket.port().device.grip.motors(), [0; 3]);
 }
 
@@ -205,14 +205,14 @@ fn forces_beyond_the_limits_and_no_numbers_are_cut() {
         let _ = falcon.read();
     }
     drop(falcon);
-    let felt = socket.port().device.grip.felt();
+    let stats = socket.port().device.grip.motor_stats();
     assert!(
-        felt.largest_force_n > 4.0 && felt.largest_force_n < 8.9 * 1.03,
-        "{felt:?}"
+        stats.largest_force_n > 4.0 && stats.largest_force_n < 8.9 * 1.03,
+        "{stats:?}"
     );
     assert!(
-        felt.largest_count <= 4096 && felt.largest_step <= 1536,
-        "{felt:?}"
+        stats.largest_count <= 4096 && stats.largest_step <= 1536,
+        "{stats:?}"
     );
 }
 
@@ -269,7 +269,7 @@ fn an_unplugged_device_is_told_at_once_and_taken_up_again() {
     }
     // Its zeros were kept: the power supply is its own.
     assert!(until_read(&mut falcon, 1000).fresh);
-    assert_eq!(socket.port().device.grip.felt().unhomed_forces, 0);
+    assert_eq!(socket.port().device.grip.motor_stats().unhomed_forces, 0);
 }
 
 #[test]
@@ -306,7 +306,7 @@ fn a_device_that_lost_its_power_is_loaded_and_homed_again() {
             "it does not come back"
         );
     }
-    assert_eq!(socket.port().device.grip.felt().unhomed_forces, 0);
+    assert_eq!(socket.port().device.grip.motor_stats().unhomed_forces, 0);
 }
 
 #[test]
@@ -339,9 +339,9 @@ fn whatever_the_bus_loses_no_force_and_no_step_is_beyond_its_limit() {
         std::thread::sleep(Duration::from_micros(300));
     }
     let counts = socket.port().counts();
-    let felt = socket.port().device.grip.felt();
+    let stats = socket.port().device.grip.motor_stats();
     let all = format!(
-        "{fresh} fresh, {faults} faults; {counts:?}; {felt:?}; {:?}",
+        "{fresh} fresh, {faults} faults; {counts:?}; {stats:?}; {:?}",
         falcon.counts()
     );
     assert!(
@@ -351,10 +351,10 @@ fn whatever_the_bus_loses_no_force_and_no_step_is_beyond_its_limit() {
     assert!(fresh > 200 && faults > 0, "{all}");
     // A force of (3, −3, 3) N has 5.2 N. It is made for where the grip was at the newest answer that
     // came through; where it is by then, the same torques push a little harder.
-    assert!(felt.largest_meant_n < 5.2 * 1.01, "{all}");
-    assert!(felt.largest_force_n < 5.2 * 1.05, "{all}");
+    assert!(stats.largest_meant_n < 5.2 * 1.01, "{all}");
+    assert!(stats.largest_force_n < 5.2 * 1.05, "{all}");
     assert!(
-        felt.largest_step <= 1536 && felt.unhomed_forces == 0,
+        stats.largest_step <= 1536 && stats.unhomed_forces == 0,
         "{all}"
     );
 }

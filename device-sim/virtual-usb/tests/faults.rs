@@ -51,9 +51,9 @@ fn every_fault_on_the_falcon_over_virtual_usb() {
         );
         assert!(row.before_n > 3.0, "{}: {row:?}", kind.name());
     }
-    let felt = socket.port().device.grip.felt();
+    let stats = socket.port().device.grip.motor_stats();
     assert!(
-        felt.unhomed_forces == 0 && felt.largest_step <= 1536,
-        "{felt:?}"
+        stats.unhomed_forces == 0 && stats.largest_step <= 1536,
+        "{stats:?}"
     );
 }

@@ -14,9 +14,9 @@ use asperity_host::device::falcon::link::LinkCounts;
 use asperity_host::device::falcon::on_usb;
 use asperity_host::device::fault_injection::trial::Paced;
 use asperity_host::device::supervised::{Plausible, Supervised};
-use asperity_host::device::touch::{Face, identify, open as open_touch};
+use asperity_host::device::touch::{UsbPresentation, identify, open as open_touch};
 use asperity_host::device::usb::scan::scan;
-use asperity_host::device::usb::{Access, Ids, Kind, UsbError};
+use asperity_host::device::usb::{Access, DeviceKind, Ids, UsbError};
 use asperity_host::device::{Device as _, DeviceError};
 use asperity_host::session_log::{
     Conditions, Encoder, Entry, SessionLog, TextureInfo, render_again,
@@ -62,9 +62,9 @@ impl Served {
         child(&self.address.port().to_string(), "1-1", name, told, flags)
     }
 
-    fn felt(&self) -> asperity_virtual_usb::falcon::Felt {
+    fn motor_stats(&self) -> asperity_virtual_usb::falcon::MotorStats {
         match &self.socket.port().device {
-            AnyDevice::Falcon(falcon) => falcon.grip.felt(),
+            AnyDevice::Falcon(falcon) => falcon.grip.motor_stats(),
             AnyDevice::Touch(_) => panic!("no Falcon"),
         }
     }
@@ -121,11 +121,11 @@ fn over_usb_a_firmware_gets_in_and_positions_come() {
     std::fs::write(file.path(), image::image(8000)).expect("its bytes");
     let uri = format!("falcon:VF0001?firmware={}&tries=4", file.path().display());
     served.child("child_homes_and_pushes", &uri, &[]);
-    let felt = served.felt();
-    assert!((felt.largest_force_n - 2.0).abs() < 0.2, "{felt:?}");
+    let stats = served.motor_stats();
+    assert!((stats.largest_force_n - 2.0).abs() < 0.2, "{stats:?}");
     assert!(
-        felt.unhomed_forces == 0 && felt.largest_step <= 1536,
-        "{felt:?}"
+        stats.unhomed_forces == 0 && stats.largest_step <= 1536,
+        "{stats:?}"
     );
 }
 
@@ -176,21 +176,21 @@ fn over_usb_no_fault_of_the_bus_makes_a_force_beyond_the_limits() {
     let served = Served::new(Port::with_faults(running(), Rates::mixed(0.01), 5));
     served.child("child_feels_a_texture", &ticks, &[]);
     let counts = served.socket.port().counts();
-    let felt = served.felt();
-    println!("device: {counts:?}; {felt:?}");
+    let stats = served.motor_stats();
+    println!("device: {counts:?}; {stats:?}");
     assert!(
-        felt.largest_step <= 1536 && felt.largest_count <= 4096,
-        "{felt:?}"
+        stats.largest_step <= 1536 && stats.largest_count <= 4096,
+        "{stats:?}"
     );
     assert!(
-        felt.unhomed_forces == 0 && felt.pushes_at_first == 0,
-        "{felt:?}"
+        stats.unhomed_forces == 0 && stats.pushes_at_first == 0,
+        "{stats:?}"
     );
     // Torques for 3.3 N where the grip was measured push up to a fifth more where it is by the
     // time that a transfer that timed out is repeated.
-    assert!(felt.largest_force_n < 3.3 * 1.2, "{felt:?}");
+    assert!(stats.largest_force_n < 3.3 * 1.2, "{stats:?}");
     let faults: u64 = counts.of.iter().sum();
-    assert!(faults > 0 && felt.pushed_s > 0.0, "{counts:?}; {felt:?}");
+    assert!(faults > 0 && stats.pushed_s > 0.0, "{counts:?}; {stats:?}");
 }
 
 #[test]
@@ -262,9 +262,9 @@ fn child_feels_a_texture() {
 #[ignore = "needs umockdev: run .ci/check-usb"]
 fn over_usb_a_touch_is_identified_and_nothing_is_sent_to_it() {
     for (firmware, face) in [
-        (Firmware::Serial, Face::Serial),
-        (Firmware::Hid, Face::Hid),
-        (Firmware::First, Face::Other),
+        (Firmware::Serial, UsbPresentation::Serial),
+        (Firmware::Hid, UsbPresentation::Hid),
+        (Firmware::First, UsbPresentation::Other),
     ] {
         let served = Served::new(Port::new(AnyDevice::Touch(Touch::new(firmware))));
         served.child("child_identifies_a_touch", &format!("{face:?}"), &[]);
@@ -287,10 +287,10 @@ fn child_identifies_a_touch() {
     let found = identify(&ids, "").expect("a Touch");
     assert_eq!(
         (found.kind, &found.access),
-        (Some(Kind::Touch), &Access::Ready)
+        (Some(DeviceKind::Touch), &Access::Ready)
     );
     assert_eq!(found.serial.as_deref(), Some("VT0001"));
-    assert_eq!(format!("{:?}", Face::of(&found)), told());
+    assert_eq!(format!("{:?}", UsbPresentation::of(&found)), told());
     let error = open_touch(&ids, "").expect_err("it is not opened");
     assert!(matches!(error, UsbError::Proprietary { .. }), "{error}");
     assert!(error.remedy().contains("openhaptics:"));

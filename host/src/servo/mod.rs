@@ -7,7 +7,7 @@
 //! | `deadlines` | due times without drift, and missed periods |
 //! | `clock` | the system's monotonic clock, and a virtual one |
 //! | `pace` | how many periods lie between two readings |
-//! | `heard` | what the supervised device said, for the records |
+//! | `last_reading` | what the supervised device said, for the records |
 //! | `recovery` | when a device that fails is asked to recover |
 //! | `event` | what is reported once: faults, their end, recoveries that failed |
 //! | `render` | the runtime behind one trait: a texture, an exchange of textures, a scene |
@@ -25,7 +25,7 @@
 mod clock;
 mod deadlines;
 mod event;
-mod heard;
+mod last_reading;
 mod pace;
 mod periods;
 pub mod privileges;

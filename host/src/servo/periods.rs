@@ -15,7 +15,7 @@ use super::{
     clock::Clock,
     deadlines::Schedule,
     event::Event,
-    heard::Heard,
+    last_reading::LastReading,
     record::{Observer, Record},
     recovery::Recovery,
     render::Render,
@@ -33,7 +33,7 @@ const ENDING_S: u64 = 2;
 
 /// A device, what renders its samples, a clock, and who looks on.
 pub struct ServoLoop<'d, D: ?Sized, R, C, O> {
-    device: Supervised<Heard<'d, D>>,
+    device: Supervised<LastReading<'d, D>>,
     render: R,
     clock: C,
     observer: O,
@@ -64,7 +64,11 @@ impl<'d, D: Device + ?Sized, R: Render, C: Clock, O: Observer> ServoLoop<'d, D, 
         Self {
             schedule: Schedule::new(settings.rate_hz, 0),
             recovery: Recovery::new(settings.rate_hz),
-            device: Supervised::new(Heard::new(device), render.config(), Plausible::default()),
+            device: Supervised::new(
+                LastReading::new(device),
+                render.config(),
+                Plausible::default(),
+            ),
             render,
             clock,
             observer,

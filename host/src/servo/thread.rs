@@ -3,7 +3,7 @@
 use super::{
     clock::Monotonic,
     periods::ServoLoop,
-    privileges::{Grant, Wanted, acquire},
+    privileges::{Grant, PrivilegeRequest, acquire},
     record::Observer,
     render::Render,
     report::Report,
@@ -31,7 +31,7 @@ pub struct Start<'s, R, O> {
     /// The clock, which may spin.
     pub clock: Monotonic,
     /// Requested privileges.
-    pub wanted: Wanted,
+    pub privileges: PrivilegeRequest,
     /// Set to end the loop.
     pub stop: &'s AtomicBool,
 }
@@ -58,7 +58,7 @@ impl<'scope> Servo<'scope> {
     {
         let (to_grants, grants) = channel();
         let body = move || {
-            let acquired = acquire(&start.wanted, start.settings.rate_hz);
+            let acquired = acquire(&start.privileges, start.settings.rate_hz);
             // The receiver may be gone; the loop runs all the same.
             let _ = to_grants.send(acquired.grants.clone());
             drop(to_grants);

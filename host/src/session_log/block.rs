@@ -4,7 +4,7 @@ use std::io::{self, Read, Write};
 
 /// Kind of a block's content.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum BlockKind {
     /// Conditions, as JSON.
     Conditions,
     /// Records of ticks.
@@ -17,7 +17,7 @@ pub(super) enum Kind {
     Unknown,
 }
 
-impl Kind {
+impl BlockKind {
     const ALL: [(Self, u8); 4] = [
         (Self::Conditions, 0),
         (Self::Ticks, 1),
@@ -30,8 +30,8 @@ impl Kind {
 pub(super) const LONGEST: usize = 1 << 20;
 
 /// Writes a block.
-pub(super) fn write(to: &mut impl Write, kind: Kind, body: &[u8]) -> io::Result<()> {
-    let number = Kind::ALL.iter().find(|(known, _)| *known == kind);
+pub(super) fn write(to: &mut impl Write, kind: BlockKind, body: &[u8]) -> io::Result<()> {
+    let number = BlockKind::ALL.iter().find(|(known, _)| *known == kind);
     let mut bytes = Vec::with_capacity(body.len() + 9);
     bytes.push(number.map_or(u8::MAX, |(_, number)| *number));
     let length = u32::try_from(body.len()).map_err(|_| io::ErrorKind::InvalidInput)?;
@@ -46,7 +46,7 @@ pub(super) fn write(to: &mut impl Write, kind: Kind, body: &[u8]) -> io::Result<
 #[derive(Debug)]
 pub(super) enum Next {
     /// A whole block.
-    Block(Kind, Vec<u8>),
+    Block(BlockKind, Vec<u8>),
     /// The end of the file, between blocks.
     End,
     /// A truncated or damaged block.
@@ -76,9 +76,9 @@ pub(super) fn read(from: &mut impl Read) -> io::Result<Next> {
     if hasher.finalize().to_le_bytes() != stated[..] {
         return Ok(Next::Broken("the checksum of a block is wrong"));
     }
-    let kind = Kind::ALL.iter().find(|(_, number)| *number == head[0]);
+    let kind = BlockKind::ALL.iter().find(|(_, number)| *number == head[0]);
     Ok(Next::Block(
-        kind.map_or(Kind::Unknown, |(kind, _)| *kind),
+        kind.map_or(BlockKind::Unknown, |(kind, _)| *kind),
         rest,
     ))
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::regular_file;
 
-use super::block::{self, Kind, Next};
+use super::block::{self, BlockKind, Next};
 use super::record::{self, Before};
 use super::{Conditions, Entry, SessionLogError, TextureInfo};
 
@@ -48,7 +48,7 @@ impl<W: Write> Encoder<W> {
         to.write_all(&MAGIC)?;
         to.write_all(&VERSION.to_le_bytes())?;
         to.write_all(&[0; 2])?;
-        block::write(&mut to, Kind::Conditions, &head)?;
+        block::write(&mut to, BlockKind::Conditions, &head)?;
         Ok(Self {
             to,
             body: Vec::new(),
@@ -79,7 +79,7 @@ impl<W: Write> Encoder<W> {
     pub fn announce(&mut self, texture: &TextureInfo) -> Result<(), SessionLogError> {
         self.flush()?;
         let body = serde_json::to_vec(texture).map_err(std::io::Error::from)?;
-        Ok(block::write(&mut self.to, Kind::Texture, &body)?)
+        Ok(block::write(&mut self.to, BlockKind::Texture, &body)?)
     }
 
     /// Writes what is waiting.
@@ -91,7 +91,7 @@ impl<W: Write> Encoder<W> {
             let mut body = Vec::with_capacity(self.body.len() + 4);
             record::put(&mut body, self.in_block as u64);
             body.append(&mut self.body);
-            block::write(&mut self.to, Kind::Ticks, &body)?;
+            block::write(&mut self.to, BlockKind::Ticks, &body)?;
             (self.before, self.in_block) = (Before::default(), 0);
         }
         Ok(self.to.flush()?)
@@ -107,7 +107,7 @@ impl<W: Write> Encoder<W> {
         let mut body = Vec::new();
         record::put(&mut body, recorded);
         record::put(&mut body, lost);
-        block::write(&mut self.to, Kind::End, &body)?;
+        block::write(&mut self.to, BlockKind::End, &body)?;
         self.to.flush()?;
         Ok((self.to, Summary { recorded, lost }))
     }
@@ -166,7 +166,7 @@ impl SessionLog {
             let at = from.count;
             let malformed = |why| SessionLogError::Malformed { at, why };
             match block::read(&mut from)? {
-                Next::Block(Kind::Ticks, body) => {
+                Next::Block(BlockKind::Ticks, body) => {
                     if !ticks(&body, &mut entries, most).map_err(malformed)? {
                         break Ending::Cut {
                             at,
@@ -174,23 +174,23 @@ impl SessionLog {
                         };
                     }
                 }
-                Next::Block(Kind::Texture, body) => {
+                Next::Block(BlockKind::Texture, body) => {
                     let texture = serde_json::from_slice(&body);
                     textures.push(
                         texture.map_err(|_| malformed("this is no description of a texture"))?,
                     );
                 }
-                Next::Block(Kind::End, body) => {
+                Next::Block(BlockKind::End, body) => {
                     let summary = end(&body).map_err(malformed)?;
                     if summary.recorded != entries.len() as u64 {
                         return Err(malformed("the count of ticks at the end is another"));
                     }
                     break Ending::Whole(summary);
                 }
-                Next::Block(Kind::Conditions, _) => {
+                Next::Block(BlockKind::Conditions, _) => {
                     return Err(malformed("conditions stand twice"));
                 }
-                Next::Block(Kind::Unknown, _) => {}
+                Next::Block(BlockKind::Unknown, _) => {}
                 Next::End => {
                     break Ending::Cut {
                         at,
@@ -239,7 +239,7 @@ fn head(from: &mut impl Read) -> Result<Conditions, SessionLogError> {
         });
     }
     match block::read(from)? {
-        Next::Block(Kind::Conditions, body) => {
+        Next::Block(BlockKind::Conditions, body) => {
             let conditions: Conditions =
                 serde_json::from_slice(&body).map_err(|error| damaged(&error.to_string()))?;
             // Queues and clocks are sized by the rate, before a renderer checks it.

@@ -114,12 +114,12 @@ impl<F: FnMut(u64) -> Act + Send, G: FnMut(u64) -> Act + Send> Device for Script
 
 /// Keeps everything.
 #[derive(Debug, Default)]
-pub(crate) struct Kept {
+pub(crate) struct ObserverLog {
     pub(crate) records: Vec<Record>,
     pub(crate) events: Vec<Event>,
 }
 
-impl Observer for Kept {
+impl Observer for ObserverLog {
     fn tick(&mut self, record: &Record) {
         self.records.push(*record);
     }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use asperity_io::input::{self, InputError, Kind};
+use asperity_io::input::{self, InputError, InputKind};
 use asperity_io::table::{Table, TableError};
 
 use super::{CalibrationError, Measured};
@@ -26,7 +26,7 @@ impl Measured {
     /// # Errors
     /// [`CalibrationError`] with file and line.
     pub fn load(path: &Path) -> Result<Self, CalibrationError> {
-        let text = input::read_text(path, Kind::Trajectory).map_err(|problem| InputError {
+        let text = input::read_text(path, InputKind::Trajectory).map_err(|problem| InputError {
             file: path.to_path_buf(),
             problem,
         })?;

@@ -1,7 +1,7 @@
 //! The line from a sensor's clock to the loop's, and what is damaged on the way.
 
 use super::*;
-use crate::capture::{Batch, Coverage, LineDecoder, Plan, Samples, Take, Told};
+use crate::capture::{Batch, Coverage, LineDecoder, Plan, Samples, SensorDescription, Take};
 use asperity_sim::random::unit;
 use rand_core::{Rng as _, SeedableRng as _};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -73,7 +73,7 @@ fn timed(stamps: &[String]) -> Vec<(u32, f64)> {
         let mut samples = Samples::default();
         lines.feed(text.as_bytes(), &mut samples).expect("samples");
         text.clear();
-        let told = Told {
+        let told = SensorDescription {
             layout: lines.layout().expect("a header").clone(),
             stated_scale: Some(1.0),
         };

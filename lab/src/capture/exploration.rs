@@ -47,7 +47,7 @@ pub struct Now {
 
 /// The next step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ask {
+pub enum NextStep {
     /// Hold the tool in the air.
     Air,
     /// Tap in a band of impact speed.
@@ -281,17 +281,17 @@ impl Exploration {
 
     /// Returns the next step.
     #[must_use]
-    pub fn ask(&self) -> Ask {
+    pub fn next_step(&self) -> NextStep {
         if self.bias_n.is_none() || self.air_s < self.plan.air_s {
-            return Ask::Air;
+            return NextStep::Air;
         }
         if let Some(band) = self.taps.iter().position(|taps| *taps < self.plan.taps) {
-            return Ask::Tap(band);
+            return NextStep::Tap(band);
         }
         self.plan
             .coverage
             .next(self.cell)
-            .map_or(Ask::Nothing, Ask::Stroke)
+            .map_or(NextStep::Nothing, NextStep::Stroke)
     }
 }
 

@@ -48,16 +48,16 @@ impl Tool {
 #[test]
 fn a_session_goes_from_air_over_taps_to_strokes_and_ends() {
     let mut tool = Tool::new(true, 0.37);
-    assert_eq!(tool.exploration.ask(), Ask::Air);
+    assert_eq!(tool.exploration.next_step(), NextStep::Air);
     tool.go(2.2, [0.0; 3], |_| 0.0);
-    assert_eq!(tool.exploration.ask(), Ask::Tap(0));
+    assert_eq!(tool.exploration.next_step(), NextStep::Tap(0));
     for (band, speed_m_s) in [0.05, 0.1, 0.2, 0.3].into_iter().enumerate() {
-        assert_eq!(tool.exploration.ask(), Ask::Tap(band));
+        assert_eq!(tool.exploration.next_step(), NextStep::Tap(band));
         tool.tap(speed_m_s);
     }
     assert_eq!(tool.exploration.taps(), [1, 1, 1, 1]);
     let mut strokes = 0;
-    while let Ask::Stroke((speed, force)) = tool.exploration.ask() {
+    while let NextStep::Stroke((speed, force)) = tool.exploration.next_step() {
         let middle = |[low, high]: [f64; 2]| 0.5 * (low + high);
         let coverage = tool.exploration.coverage();
         let speed_m_s = 1e-3 * middle(coverage.speed(speed));
@@ -66,7 +66,10 @@ fn a_session_goes_from_air_over_taps_to_strokes_and_ends() {
         strokes += 1;
         assert!(strokes < 10, "{:?}", tool.exploration.coverage());
     }
-    assert_eq!((strokes, tool.exploration.ask()), (6, Ask::Nothing));
+    assert_eq!(
+        (strokes, tool.exploration.next_step()),
+        (6, NextStep::Nothing)
+    );
     let now = tool.exploration.now();
     assert!(
         (now.load_n - 1.5).abs() < 0.51 && now.touches == Some(true),
@@ -95,8 +98,8 @@ fn a_bias_is_taken_while_the_force_rests_and_not_while_it_moves() {
     let mut tool = Tool::new(true, -0.8);
     tool.go(6.0, [0.05, 0.0, 0.0], |t_s| 0.4 * libm::sin(3.0 * t_s));
     assert_eq!(
-        (tool.exploration.ask(), tool.exploration.now().touches),
-        (Ask::Air, None)
+        (tool.exploration.next_step(), tool.exploration.now().touches),
+        (NextStep::Air, None)
     );
     tool.go(2.5, [0.0; 3], |_| 0.0);
     assert_eq!(tool.exploration.now().touches, Some(false));

@@ -1,7 +1,7 @@
 //! Round trip: an import reads a written folder back, gaps and missing values included.
 
 use super::*;
-use crate::capture::{Batch, Coverage, Layout, Plan, Samples, Told};
+use crate::capture::{Batch, Coverage, Layout, Plan, Samples, SensorDescription};
 use asperity_host::device::Reading;
 use asperity_host::servo::{Record, Times};
 use asperity_recording::reader::{self, Recording};
@@ -59,7 +59,7 @@ fn sample(take: &mut Take, columns: &str, n: u64) {
     let layout = Layout::parse(columns).expect("columns");
     let own_s = 100.0 + n as f64 / ACCEL_HZ;
     let width = layout.channels().count();
-    let told = Told {
+    let told = SensorDescription {
         layout,
         stated_scale: Some(1.0),
     };

@@ -39,12 +39,12 @@ pub use clock::{ClockLine, line_under};
 pub use columns::{Channel, Column, Layout};
 pub use coverage::{Coverage, GridError};
 pub use error::SensorError;
-pub use exploration::{Ask, Exploration, Now, Plan, TAPS_M_S};
+pub use exploration::{Exploration, NextStep, Now, Plan, TAPS_M_S};
 pub use folder::{About, FILES, Part, part, write};
 pub use line::LineDecoder;
-pub use reader::{Batch, Reader, Told};
+pub use reader::{Batch, Reader, SensorDescription};
 pub use samples::{Counts, Samples};
-pub use sensor::{Kind, Sensor};
+pub use sensor::{Sensor, SensorKind};
 #[cfg(unix)]
 pub use serial::Serial;
 pub use simulated::Simulated;

@@ -31,7 +31,7 @@ pub struct Batch {
 
 /// The sensor's own description.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Told {
+pub struct SensorDescription {
     /// Its columns.
     pub layout: Layout,
     /// Seconds in a unit of its own time, if it states them.
@@ -44,7 +44,7 @@ pub struct Reader {
     batches: Receiver<Batch>,
     stop: Arc<AtomicBool>,
     lost: Arc<AtomicU64>,
-    told: Arc<OnceLock<Told>>,
+    description: Arc<OnceLock<SensorDescription>>,
     thread: JoinHandle<(Counts, Result<(), SensorError>)>,
 }
 
@@ -57,8 +57,12 @@ impl Reader {
         let (to, batches) = sync_channel(WAITING);
         let stop = Arc::new(AtomicBool::new(false));
         let lost = Arc::new(AtomicU64::new(0));
-        let told = Arc::new(OnceLock::new());
-        let shared = (Arc::clone(&stop), Arc::clone(&lost), Arc::clone(&told));
+        let description = Arc::new(OnceLock::new());
+        let shared = (
+            Arc::clone(&stop),
+            Arc::clone(&lost),
+            Arc::clone(&description),
+        );
         let body = move || {
             let mut source = source;
             let ended = read(&mut source, &to, &shared.0, &shared.1, &shared.2);
@@ -69,7 +73,7 @@ impl Reader {
             batches,
             stop,
             lost,
-            told,
+            description,
             thread: thread.spawn(body)?,
         })
     }
@@ -88,8 +92,8 @@ impl Reader {
 
     /// Returns the sensor's own description, once a sample has come.
     #[must_use]
-    pub fn told(&self) -> Option<&Told> {
-        self.told.get()
+    pub fn description(&self) -> Option<&SensorDescription> {
+        self.description.get()
     }
 
     /// Samples that were lost since nobody took them.
@@ -128,7 +132,7 @@ fn read(
     to: &SyncSender<Batch>,
     stop: &AtomicBool,
     lost: &AtomicU64,
-    told: &OnceLock<Told>,
+    description: &OnceLock<SensorDescription>,
 ) -> Result<(), SensorError> {
     let clock = Monotonic::default();
     let mut last = Instant::now();
@@ -138,7 +142,11 @@ fn read(
         let arrived_ns = clock.now_ns();
         if samples.is_empty() {
             read?;
-            let patience = if told.get().is_some() { STALLED } else { FIRST };
+            let patience = if description.get().is_some() {
+                STALLED
+            } else {
+                FIRST
+            };
             if last.elapsed() > patience {
                 return Err(stalled(source, patience));
             }
@@ -153,9 +161,9 @@ fn read(
                 seconds: STALLED.as_secs(),
             });
         }
-        if let (None, Some(layout)) = (told.get(), source.layout()) {
+        if let (None, Some(layout)) = (description.get(), source.layout()) {
             // Nobody else sets it.
-            let _ = told.set(Told {
+            let _ = description.set(SensorDescription {
                 layout: layout.clone(),
                 stated_scale: source.stated_scale(),
             });

@@ -12,7 +12,7 @@ use std::sync::mpsc::Receiver;
 
 /// Where a sensor is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum SensorKind {
     /// Lines on a serial port or a pipe.
     Serial,
     /// A WAV file that another program is writing.
@@ -27,7 +27,7 @@ pub struct Sensor {
     /// As it was given.
     pub name: String,
     /// Where it is.
-    pub kind: Kind,
+    pub kind: SensorKind,
     /// Port or file.
     pub which: String,
     /// Bits a second of a serial line.
@@ -61,18 +61,21 @@ impl FromStr for Sensor {
             .ok_or_else(|| fail("it names no kind of sensor"))?;
         let (which, settings) = rest.split_once('?').unwrap_or((rest, ""));
         let (kind, known): (_, &[&str]) = match scheme {
-            "serial" => (Kind::Serial, &["baud", "columns", "delay_ms", "g", "n"]),
-            "wav" => (Kind::Wav, &["columns", "delay_ms", "g", "n"]),
-            "sim" => (Kind::Simulated, &["seed"]),
+            "serial" => (
+                SensorKind::Serial,
+                &["baud", "columns", "delay_ms", "g", "n"],
+            ),
+            "wav" => (SensorKind::Wav, &["columns", "delay_ms", "g", "n"]),
+            "sim" => (SensorKind::Simulated, &["seed"]),
             _ => {
                 return Err(fail(
                     "unknown kind of sensor; known kinds are serial:, wav: and sim:",
                 ));
             }
         };
-        if (kind == Kind::Simulated) != which.is_empty() {
+        if (kind == SensorKind::Simulated) != which.is_empty() {
             return Err(fail(match kind {
-                Kind::Simulated => "sim: has no file",
+                SensorKind::Simulated => "sim: has no file",
                 _ => "it names no port and no file",
             }));
         }
@@ -117,12 +120,12 @@ impl FromStr for Sensor {
                 }
             }
         }
-        if kind == Kind::Wav && sensor.full_acceleration.is_none() {
+        if kind == SensorKind::Wav && sensor.full_acceleration.is_none() {
             return Err(fail("g is missing: what full scale is, such as g=16"));
         }
         let has_force =
             |layout: &Layout| layout.has(asperity_recording::description::Quantity::Force);
-        if kind == Kind::Wav
+        if kind == SensorKind::Wav
             && sensor.full_force.is_none()
             && sensor.columns.as_ref().is_some_and(has_force)
         {
@@ -139,8 +142,10 @@ impl Sensor {
     /// [`SensorError`] for a port that cannot be opened.
     pub fn open(&self, sent: Receiver<Vec<u8>>) -> Result<Reader, SensorError> {
         let reader = match self.kind {
-            Kind::Simulated => Reader::start(LineSource::new("sim:", Sent { from: sent }, None)),
-            Kind::Wav => {
+            SensorKind::Simulated => {
+                Reader::start(LineSource::new("sim:", Sent { from: sent }, None))
+            }
+            SensorKind::Wav => {
                 let full = Full {
                     acceleration: self.full_acceleration.unwrap_or(1.0),
                     force: self.full_force.unwrap_or(1.0),
@@ -151,7 +156,7 @@ impl Sensor {
                     full,
                 ))
             }
-            Kind::Serial => self.serial()?,
+            SensorKind::Serial => self.serial()?,
         };
         reader.map_err(|cause| self.not_opened(cause))
     }
@@ -186,7 +191,7 @@ mod tests {
         let sensor: Sensor = "serial:/dev/ttyACM0?baud=921600&columns=t_us,az_g&delay_ms=1.5"
             .parse()
             .expect("a sensor");
-        assert_eq!((sensor.kind, sensor.baud), (Kind::Serial, 921_600));
+        assert_eq!((sensor.kind, sensor.baud), (SensorKind::Serial, 921_600));
         assert_eq!(sensor.which, "/dev/ttyACM0");
         assert!((sensor.delay_s - 0.0015).abs() < 1e-12 && sensor.columns.is_some());
     }

@@ -3,7 +3,7 @@
 use super::clock::{ClockLine, arrivals, chain, line_under};
 use super::columns::{Channel, Column};
 use super::exploration::{Exploration, Plan};
-use super::reader::{Batch, Told};
+use super::reader::{Batch, SensorDescription};
 use super::samples::Samples;
 use asperity_host::servo::Record;
 use asperity_recording::reader::MAX_KEPT;
@@ -40,7 +40,7 @@ pub struct Take {
     delay_s: f64,
     exploration: Exploration,
     touches: Vec<Touch>,
-    told: Option<Told>,
+    description: Option<SensorDescription>,
     samples: Samples,
     /// Place behind the last sample of each batch, and when it arrived, s.
     batches: Vec<(usize, f64)>,
@@ -64,7 +64,7 @@ impl Take {
             delay_s,
             exploration: Exploration::new(plan),
             touches: Vec::new(),
-            told: None,
+            description: None,
             samples: Samples::default(),
             batches: Vec::new(),
             load_n: f64::NAN,
@@ -101,11 +101,11 @@ impl Take {
     }
 
     /// Takes what a sensor sent at once. Samples that come before the first tick wait for it.
-    pub fn batch(&mut self, told: &Told, batch: &Batch) {
-        let told = self.told.get_or_insert_with(|| told.clone());
-        let width = told.layout.channels().count();
-        if let (Some(place), Load::Sensor) = (told.layout.load(), self.load) {
-            let unit = told
+    pub fn batch(&mut self, description: &SensorDescription, batch: &Batch) {
+        let description = self.description.get_or_insert_with(|| description.clone());
+        let width = description.layout.channels().count();
+        if let (Some(place), Load::Sensor) = (description.layout.load(), self.load) {
+            let unit = description
                 .layout
                 .channels()
                 .nth(place)
@@ -153,7 +153,10 @@ impl Take {
 
     /// Returns true if the sensor's own time resolves samples `period_s` apart.
     pub(super) fn tells_samples_apart(&self, period_s: f64) -> bool {
-        let columns = self.told.iter().flat_map(|told| told.layout.columns());
+        let columns = self
+            .description
+            .iter()
+            .flat_map(|description| description.layout.columns());
         columns.into_iter().all(|column| match column {
             Column::Clock(unit_s) => *unit_s <= 0.5 * period_s,
             _ => true,
@@ -169,8 +172,9 @@ impl Take {
     /// Returns the channels that the sensor measures.
     #[must_use]
     pub fn channels(&self) -> Vec<Channel> {
-        let told = self.told.iter();
-        told.flat_map(|told| told.layout.channels().copied())
+        let description = self.description.iter();
+        description
+            .flat_map(|description| description.layout.channels().copied())
             .collect()
     }
 
@@ -182,9 +186,9 @@ impl Take {
     }
 
     fn channels_count(&self) -> usize {
-        self.told
+        self.description
             .as_ref()
-            .map_or(1, |told| told.layout.channels().count())
+            .map_or(1, |description| description.layout.channels().count())
     }
 
     /// From the sensor's own time to the loop's, once enough came.
@@ -195,7 +199,7 @@ impl Take {
 
     fn clock_by(&self, chain: &[u32]) -> Option<ClockLine> {
         let arrivals = arrivals(&self.samples.own, chain, &self.batches);
-        line_under(&arrivals, self.told.as_ref()?.stated_scale)
+        line_under(&arrivals, self.description.as_ref()?.stated_scale)
     }
 
     /// The samples whose time stamps are believed, and when they were taken on the loop's clock, s.

@@ -7,7 +7,7 @@ use super::columns::{Column, Layout};
 use super::error::SensorError;
 use super::samples::{Counts, Samples};
 use super::source::Source;
-use asperity_recording::reader::wav::{self, Found, Wav as Format};
+use asperity_recording::reader::wav::{self, ParsedHeader, Wav as Format};
 use std::fs::{self, File};
 use std::io::{self, Read as _, Seek as _, SeekFrom};
 use std::ops::RangeInclusive;
@@ -257,13 +257,12 @@ fn read_header(file: &mut File, name: &str) -> Result<Option<Format>, SensorErro
         why,
     };
     match found {
-        Found::Cut => Ok(None),
-        Found::Refused(what, remedy) => Err(refused(format!("{what}; {remedy}"))),
-        Found::Whole(format) if !RATES_HZ.contains(&format.rate_hz) => Err(refused(format!(
-            "states {} Hz, outside 10 to 200000",
-            format.rate_hz
-        ))),
-        Found::Whole(format) => Ok(Some(Format {
+        ParsedHeader::Cut => Ok(None),
+        ParsedHeader::Refused(what, remedy) => Err(refused(format!("{what}; {remedy}"))),
+        ParsedHeader::Whole(format) if !RATES_HZ.contains(&format.rate_hz) => Err(refused(
+            format!("states {} Hz, outside 10 to 200000", format.rate_hz),
+        )),
+        ParsedHeader::Whole(format) => Ok(Some(Format {
             stated: 0,
             ..format
         })),

@@ -5,7 +5,7 @@ use super::surface::Surface;
 use asperity_formats::{Asset, Library};
 use asperity_host::device::Device;
 use asperity_host::latency::{Delayed, Injection};
-use asperity_host::servo::privileges::{Grant, Wanted};
+use asperity_host::servo::privileges::{Grant, PrivilegeRequest};
 use asperity_host::servo::{
     Monotonic, Observer, Render, Report, SceneRender, Servo, Settings, Start, SwappableTexture,
 };
@@ -25,7 +25,7 @@ pub struct Setup<'s> {
     /// The clock, which may spin.
     pub clock: Monotonic,
     /// Privileges requested from the system.
-    pub wanted: Wanted,
+    pub privileges: PrivilegeRequest,
     /// A delay that is put in on purpose.
     pub injection: Option<Injection>,
     /// Seed of the excitation.
@@ -109,7 +109,7 @@ pub(super) fn spawn<'q, 'a, R: Render + Send, O: Observer + Send>(
             observer,
             settings: setup.settings,
             clock: setup.clock,
-            wanted: setup.wanted,
+            privileges: setup.privileges,
             stop: setup.stop,
         };
         let servo = Servo::spawn(scope, start).map_err(ServoSessionError::Thread)?;

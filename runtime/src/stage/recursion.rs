@@ -219,7 +219,7 @@ impl Recursion {
 
 /// A sample of the vibration.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sounded<A: Arithmetic> {
+pub struct VibrationSample<A: Arithmetic> {
     /// y\[n\], m/s².
     pub y: Quantity<A, VibrationAcceleration>,
     /// True if y was clamped.
@@ -251,7 +251,7 @@ impl<A: InnerProduct> History<A> {
         recursion: Recursion,
         e: Quantity<A, VibrationAcceleration>,
         sounding: bool,
-    ) -> Sounded<A> {
+    ) -> VibrationSample<A> {
         let at = usize::from(*newest) % LANES;
         *newest = before(at) as u8;
         // The length is a constant in each arm, so that no sum is a loop.
@@ -280,7 +280,7 @@ impl<A: InnerProduct> History<A> {
         recursion: Recursion,
         e: Quantity<A, VibrationAcceleration>,
         sounding: bool,
-    ) -> Sounded<A> {
+    ) -> VibrationSample<A> {
         let at = usize::from(*newest) % LANES;
         *newest = before(at) as u8;
         self.arma(recursion.blocks(), a, b, at, e, sounding)
@@ -297,7 +297,7 @@ impl<A: InnerProduct> History<A> {
         at: usize,
         e: Quantity<A, VibrationAcceleration>,
         sounding: bool,
-    ) -> Sounded<A> {
+    ) -> VibrationSample<A> {
         let driven = A::sum_of(e.0) + self.e.inner_product(blocks, b, at);
         let sounded = self.recurse(blocks, a, at, driven, sounding);
         if at == 0 {
@@ -318,7 +318,7 @@ impl<A: InnerProduct> History<A> {
         at: usize,
         e: Quantity<A, VibrationAcceleration>,
         sounding: bool,
-    ) -> Sounded<A> {
+    ) -> VibrationSample<A> {
         let before = Quantity::<A, VibrationAcceleration>(self.e.0[at]);
         let first = Quantity::<A, Coefficient>(b.0[0][0]) * before;
         let driven = A::sum_of((e + first).0);
@@ -339,11 +339,11 @@ impl<A: InnerProduct> History<A> {
         at: usize,
         driven: A::Sum,
         sounding: bool,
-    ) -> Sounded<A> {
+    ) -> VibrationSample<A> {
         let (y, clamped) = A::sample_of(driven - self.y.inner_product(blocks, a, at));
         let y = Quantity(y);
         let y = if sounding { y } else { Quantity::ZERO };
-        Sounded {
+        VibrationSample {
             y,
             clamped: clamped && sounding,
         }

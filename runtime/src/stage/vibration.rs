@@ -9,7 +9,7 @@
 
 use super::{
     excitation::{Excitation, GaussianCubic},
-    recursion::{History, InnerProduct, Recursion, Sounded},
+    recursion::{History, InnerProduct, Recursion, VibrationSample},
     upsample::{Held, Upsampler},
 };
 use crate::{
@@ -143,7 +143,7 @@ impl<A: WeightSearch + RowMixture + SectionProduct + GaussianCubic + InnerProduc
         force: Quantity<A, Newton>,
         fraction: Quantity<A, Fraction>,
         sounding: bool,
-    ) -> Sounded<A> {
+    ) -> VibrationSample<A> {
         if !self.is_on(texture.id()) {
             self.change_texture(texture.id());
         }
@@ -172,7 +172,7 @@ impl<A: WeightSearch + RowMixture + SectionProduct + GaussianCubic + InnerProduc
         recursion: Recursion,
         upsampler: &Upsampler<A>,
         sounding: bool,
-    ) -> Sounded<A> {
+    ) -> VibrationSample<A> {
         if !sounding {
             self.leave();
         }
@@ -193,15 +193,15 @@ impl<A: WeightSearch + RowMixture + SectionProduct + GaussianCubic + InnerProduc
         recursion: Recursion,
         upsampler: &Upsampler<A>,
         sounding: bool,
-    ) -> Sounded<A> {
+    ) -> VibrationSample<A> {
         let is_sample = self.follower.is_sample();
-        let Sounded { y, clamped } = if is_sample {
+        let VibrationSample { y, clamped } = if is_sample {
             let e = self.draw();
             let (a, b) = (&self.model.a, &self.model.b);
             self.history
                 .step_in_loops(&mut self.newest, a, b, recursion, e, sounding)
         } else {
-            Sounded {
+            VibrationSample {
                 y: Quantity::ZERO,
                 clamped: false,
             }
@@ -212,7 +212,7 @@ impl<A: WeightSearch + RowMixture + SectionProduct + GaussianCubic + InnerProduc
             self.held.settle();
         }
         let y = upsampler.step(&mut self.held, y);
-        Sounded { y, clamped }
+        VibrationSample { y, clamped }
     }
 
     /// The next excitation, m/s².

@@ -10,7 +10,7 @@ use crate::{
     error::ApiError,
     http::{Answer, Body, Content, Head, Keep, Status},
     packing,
-    studio::{Kept, Studio},
+    studio::{OpenedFile, Studio},
 };
 use serde::Deserialize;
 use serde_json::json;
@@ -46,8 +46,8 @@ pub(super) fn open(
         studio.open(&name, bytes)
     })?;
     Ok(Answer::json(match kept {
-        Kept::Texture(texture) => format!("{{\"texture\":{}}}", studio.shown(&texture)),
-        Kept::Library(named) => json!({ "library": Library::of(&named) }).to_string(),
+        OpenedFile::Texture(texture) => format!("{{\"texture\":{}}}", studio.shown(&texture)),
+        OpenedFile::Library(named) => json!({ "library": Library::of(&named) }).to_string(),
     }))
 }
 

@@ -10,7 +10,7 @@ use crate::{
 
 /// A resource of a library: the path below `api/library/`.
 #[derive(Debug, PartialEq, Eq)]
-enum Wanted<'a> {
+enum LibraryResource<'a> {
     /// `LIB.json`
     Columns(&'a str),
     /// `LIB/N.png`
@@ -19,7 +19,7 @@ enum Wanted<'a> {
     Texture(&'a str, usize),
 }
 
-impl<'a> Wanted<'a> {
+impl<'a> LibraryResource<'a> {
     fn of(path: &'a str) -> Option<Self> {
         let number = |text: &str| {
             let digits = text.bytes().all(|b| b.is_ascii_digit());
@@ -38,17 +38,17 @@ impl<'a> Wanted<'a> {
 
 /// Answers a request for a path below `api/library/`.
 pub(super) fn answer(studio: &Studio, path: &str, reads: bool) -> Result<Answer, ApiError> {
-    let wanted = Wanted::of(path).ok_or_else(nothing_here)?;
+    let resource = LibraryResource::of(path).ok_or_else(nothing_here)?;
     if !reads {
         return Ok(Answer::only("GET, HEAD"));
     }
-    match wanted {
-        Wanted::Columns(id) => {
+    match resource {
+        LibraryResource::Columns(id) => {
             let named = studio.library(id)?;
             let columns = Content::Shared(named.library.columns(id));
             Ok(Answer::new("application/json", columns, Keep::Forever))
         }
-        Wanted::Picture(id, at) => {
+        LibraryResource::Picture(id, at) => {
             let named = studio.library(id)?;
             let png = studio.compute(|| named.library.thumbnail(at))?;
             Ok(Answer::new(
@@ -57,7 +57,7 @@ pub(super) fn answer(studio: &Studio, path: &str, reads: bool) -> Result<Answer,
                 Keep::Forever,
             ))
         }
-        Wanted::Texture(id, at) => {
+        LibraryResource::Texture(id, at) => {
             let texture = studio.pick(&studio.library(id)?, at)?;
             Ok(Answer::json(studio.shown(&texture)))
         }
@@ -84,9 +84,18 @@ mod tests {
 
     #[test]
     fn places_are_digits_alone() {
-        assert_eq!(Wanted::of("0.json"), Some(Wanted::Columns("0")));
-        assert_eq!(Wanted::of("0/12.png"), Some(Wanted::Picture("0", 12)));
-        assert_eq!(Wanted::of("0/12.json"), Some(Wanted::Texture("0", 12)));
+        assert_eq!(
+            LibraryResource::of("0.json"),
+            Some(LibraryResource::Columns("0"))
+        );
+        assert_eq!(
+            LibraryResource::of("0/12.png"),
+            Some(LibraryResource::Picture("0", 12))
+        );
+        assert_eq!(
+            LibraryResource::of("0/12.json"),
+            Some(LibraryResource::Texture("0", 12))
+        );
         for path in [
             "",
             "0",
@@ -101,7 +110,7 @@ mod tests {
             "0/x.png",
             "0/99999999999999999999.png",
         ] {
-            assert_eq!(Wanted::of(path), None, "{path}");
+            assert_eq!(LibraryResource::of(path), None, "{path}");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Requests in JSON: which fields they have, and within which bounds.
 
 use crate::{error::ApiError, http::Status, making, studio::Studio, texture::Texture};
-use asperity::sources::latents::{AXES, Axis, Edit as Asked, Sliders};
+use asperity::sources::latents::{AXES, Axis, Edit as LatentEdit, Sliders};
 use serde::{Deserialize, de::DeserializeOwned};
 use std::sync::Arc;
 
@@ -81,8 +81,8 @@ fn edit(studio: &Studio, bytes: &[u8]) -> Result<Arc<Texture>, ApiError> {
          slipperier, or {\"texture\": ID, \"words\": TEXT}; \"draft\": true leaves the picture out";
     let request: Edit = parsed(bytes, EXPECTED)?;
     let asked = match (request.steps, request.words) {
-        (Some(steps), None) => Asked::Steps(within(steps)?),
-        (None, Some(words)) => Asked::Words(words),
+        (Some(steps), None) => LatentEdit::Steps(within(steps)?),
+        (None, Some(words)) => LatentEdit::Words(words),
         (Some(_), Some(_)) => return Err(unexpected("it has both steps and words", EXPECTED)),
         (None, None) => return Err(unexpected("it has neither steps nor words", EXPECTED)),
     };

@@ -35,12 +35,12 @@ struct Shared {
 #[derive(Debug)]
 struct State {
     feed: Feed,
-    wanted: Option<Wanted>,
+    wanted: Option<RequestedTexture>,
 }
 
 /// A texture that the page wants to be played.
 #[derive(Debug, Clone)]
-pub struct Wanted {
+pub struct RequestedTexture {
     /// Its name.
     pub name: String,
     /// Its asset, checked.
@@ -92,7 +92,7 @@ impl LiveDevice {
 
     /// The texture that the page wanted last, once.
     #[must_use]
-    pub fn wanted(&self) -> Option<Wanted> {
+    pub fn wanted(&self) -> Option<RequestedTexture> {
         self.lock().wanted.take()
     }
 
@@ -116,7 +116,7 @@ impl LiveDevice {
 
     /// Has this texture played next; one that still waits makes room.
     pub(crate) fn want(&self, name: &str, asset: &Arc<[u8]>) {
-        self.lock().wanted = Some(Wanted {
+        self.lock().wanted = Some(RequestedTexture {
             name: name.to_owned(),
             asset: Arc::clone(asset),
         });

@@ -23,7 +23,7 @@ struct Step {
     id: String,
     /// The name of its texture.
     name: String,
-    what: What,
+    operation: Operation,
 }
 
 /// A file that commands find where the user has it.
@@ -36,7 +36,7 @@ pub(crate) struct Opened {
 }
 
 /// Operation of a step. Other textures are named by the identifiers of their bytes.
-pub(crate) enum What {
+pub(crate) enum Operation {
     /// A file holds the texture.
     File(Opened),
     /// `asperity import`, of a file as `hatt` or another kind
@@ -75,7 +75,7 @@ impl Recipe {
         others: impl IntoIterator<Item = Option<&'a Self>>,
         id: &str,
         name: &str,
-        what: What,
+        operation: Operation,
     ) -> Option<Self> {
         let mut steps: Vec<Arc<Step>> = Vec::new();
         for other in others {
@@ -90,13 +90,13 @@ impl Recipe {
             steps.truncate(at + 1);
             return Some(Self(steps));
         }
-        if steps.len() == MOST || !what.is_sayable() {
+        if steps.len() == MOST || !operation.is_sayable() {
             return None;
         }
         steps.push(Arc::new(Step {
             id: id.to_owned(),
             name: name.to_owned(),
-            what,
+            operation,
         }));
         Some(Self(steps))
     }
@@ -104,8 +104,8 @@ impl Recipe {
     /// The file that the last command writes, by its name alone.
     pub(crate) fn file(&self) -> Option<String> {
         let last = self.0.last()?;
-        match &last.what {
-            What::File(opened) => {
+        match &last.operation {
+            Operation::File(opened) => {
                 let stem = opened.asset_stem()?;
                 FileNames::of(&[stem], "asp").files.pop()
             }
@@ -116,31 +116,31 @@ impl Recipe {
     /// The commands, one a line, for a POSIX shell. `None` where a file holds the texture already, and where two files
     /// have the same path.
     pub(crate) fn command(&self) -> Option<String> {
-        let opened = || self.0.iter().filter_map(|step| step.what.opened());
+        let opened = || self.0.iter().filter_map(|step| step.operation.opened());
         let ambiguous = |file: &Opened| opened().any(|o| o.path == file.path && o.id != file.id);
         if opened().any(ambiguous) {
             return None;
         }
         let files = self.files();
         let lines: Vec<String> = self.0.iter().filter_map(|step| step.line(&files)).collect();
-        let writes = !matches!(self.0.last()?.what, What::File(_));
+        let writes = !matches!(self.0.last()?.operation, Operation::File(_));
         writes.then(|| lines.join("\n"))
     }
 
     /// The file of each step: where it lies, or to which the step writes it. All differ.
     fn files(&self) -> HashMap<&str, String> {
-        let opened = self.0.iter().filter_map(|step| step.what.opened());
+        let opened = self.0.iter().filter_map(|step| step.operation.opened());
         let mut names: Vec<&str> = opened.filter_map(Opened::asset_stem).collect();
         let taken = names.len();
         let written = || {
             let steps = self.0.iter();
-            steps.filter(|step| !matches!(step.what, What::File(_)))
+            steps.filter(|step| !matches!(step.operation, Operation::File(_)))
         };
         names.extend(written().map(|step| step.name.as_str()));
         let outputs = FileNames::of(&names, "asp").files.into_iter().skip(taken);
         let outputs = written().map(|step| step.id.as_str()).zip(outputs);
-        let found = self.0.iter().filter_map(|step| match &step.what {
-            What::File(opened) => Some((step.id.as_str(), opened.path.clone())),
+        let found = self.0.iter().filter_map(|step| match &step.operation {
+            Operation::File(opened) => Some((step.id.as_str(), opened.path.clone())),
             _ => None,
         });
         found.chain(outputs).collect()
@@ -153,12 +153,12 @@ impl Step {
         // Each step comes after those that it takes textures of.
         let file = |id: &str| path_word(files.get(id).map_or("", String::as_str)).into_owned();
         let to = format!("-o {}", file(&self.id));
-        Some(match &self.what {
-            What::File(_) => return None,
-            What::Import { kind, file } => {
+        Some(match &self.operation {
+            Operation::File(_) => return None,
+            Operation::Import { kind, file } => {
                 format!("asperity import {kind} {} {to}", path_word(&file.path))
             }
-            What::Extract { library, texture } => {
+            Operation::Extract { library, texture } => {
                 let (library, word) = (path_word(&library.path), shell_word(texture));
                 if texture.starts_with('-') {
                     format!("asperity extract {to} -- {library} {word}")
@@ -166,7 +166,7 @@ impl Step {
                     format!("asperity extract {library} {word} {to}")
                 }
             }
-            What::Compile { prompt, seed } => {
+            Operation::Compile { prompt, seed } => {
                 let seed = match seed {
                     0 => String::new(),
                     _ => format!(" --seed {seed}"),
@@ -179,7 +179,7 @@ impl Step {
                     format!("asperity compile {quoted} {to}{seed}")
                 }
             }
-            What::Edit {
+            Operation::Edit {
                 texture,
                 edit,
                 draft,
@@ -194,11 +194,11 @@ impl Step {
                 let picture = without_picture(*draft);
                 format!("asperity edit {} {asked}{picture} {to}", file(texture))
             }
-            What::Blend { a, b, t, draft } => {
+            Operation::Blend { a, b, t, draft } => {
                 let (a, b, picture) = (file(a), file(b), without_picture(*draft));
                 format!("asperity blend {a} {b} -t {t}{picture} {to}")
             }
-            What::Compose {
+            Operation::Compose {
                 tap,
                 slide,
                 friction,
@@ -206,7 +206,7 @@ impl Step {
                 let [tap, slide, friction] = [tap, slide, friction].map(|id| file(id));
                 format!("asperity compose --tap {tap} --slide {slide} --friction {friction} {to}")
             }
-            What::Encode { texture } => format!("asperity encode {} {to}", file(texture)),
+            Operation::Encode { texture } => format!("asperity encode {} {to}", file(texture)),
         })
     }
 }
@@ -215,7 +215,7 @@ fn without_picture(draft: bool) -> &'static str {
     if draft { " --no-preview" } else { "" }
 }
 
-impl What {
+impl Operation {
     fn opened(&self) -> Option<&Opened> {
         match self {
             Self::File(file) | Self::Import { file, .. } | Self::Extract { library: file, .. } => {

@@ -1,11 +1,11 @@
 //! Recipes and their commands.
 
-use super::{MOST, Opened, Recipe, What};
+use super::{MOST, Opened, Operation, Recipe};
 use asperity::sources::latents::{Edit, Sliders};
 
 fn compiled(id: &str, prompt: &str, seed: u64) -> Recipe {
     let prompt = prompt.to_owned();
-    Recipe::new([], id, &prompt.clone(), What::Compile { prompt, seed }).unwrap()
+    Recipe::new([], id, &prompt.clone(), Operation::Compile { prompt, seed }).unwrap()
 }
 
 fn edited(of: &Recipe, from: &str, id: &str, name: &str, edit: Edit) -> Option<Recipe> {
@@ -14,7 +14,7 @@ fn edited(of: &Recipe, from: &str, id: &str, name: &str, edit: Edit) -> Option<R
         [Some(of)],
         id,
         name,
-        What::Edit {
+        Operation::Edit {
             texture,
             edit,
             draft: false,
@@ -25,7 +25,7 @@ fn edited(of: &Recipe, from: &str, id: &str, name: &str, edit: Edit) -> Option<R
 fn file(id: &str, path: &str) -> Recipe {
     let (path, id) = (path.to_owned(), id.to_owned());
     let opened = Opened { path, id };
-    Recipe::new([], &opened.id.clone(), "any", What::File(opened)).unwrap()
+    Recipe::new([], &opened.id.clone(), "any", Operation::File(opened)).unwrap()
 }
 
 fn softer(steps: f64) -> Edit {
@@ -53,11 +53,11 @@ fn a_prompt_is_one_word_of_a_shell() {
         let recipe = compiled("1", prompt, seed);
         assert_eq!(recipe.command().as_deref(), Some(command));
     }
-    let what = What::Compile {
+    let operation = Operation::Compile {
         prompt: "a\0b".into(),
         seed: 0,
     };
-    assert!(Recipe::new([], "1", "a b", what).is_none());
+    assert!(Recipe::new([], "1", "a b", operation).is_none());
 }
 
 #[test]
@@ -65,20 +65,26 @@ fn each_line_writes_a_file_of_its_own_and_reads_those_before() {
     let cork = compiled("c", "cork", 0);
     let edited = edited(&cork, "c", "e", "cork", softer(20.0)).unwrap();
     let dropped = file("f", "-cork (2).asp");
-    let what = What::Blend {
+    let operation = Operation::Blend {
         a: "e".into(),
         b: "f".into(),
         t: 0.25,
         draft: false,
     };
-    let blend = Recipe::new([Some(&edited), Some(&dropped)], "b", "cork – any", what).unwrap();
-    let what = What::Compose {
+    let blend = Recipe::new(
+        [Some(&edited), Some(&dropped)],
+        "b",
+        "cork – any",
+        operation,
+    )
+    .unwrap();
+    let operation = Operation::Compose {
         tap: "b".into(),
         slide: "c".into(),
         friction: "e".into(),
     };
     let all = [&blend, &cork, &edited].map(Some);
-    let composed = Recipe::new(all, "x", "cork", what).unwrap();
+    let composed = Recipe::new(all, "x", "cork", operation).unwrap();
     assert_eq!(
         composed.command().unwrap(),
         "asperity compile 'cork' -o cork.asp\n\
@@ -100,14 +106,14 @@ fn no_line_overwrites_a_file_that_was_opened() {
         edited.command().unwrap(),
         "asperity edit cork.asp --prompt='-a bit softer' -o 'cork (2).asp'"
     );
-    let what = What::Blend {
+    let operation = Operation::Blend {
         a: "f".into(),
         b: "g".into(),
         t: 0.5,
         draft: false,
     };
     let other = file("g", "cork.asp");
-    let blend = Recipe::new([Some(&dropped), Some(&other)], "b", "two", what).unwrap();
+    let blend = Recipe::new([Some(&dropped), Some(&other)], "b", "two", operation).unwrap();
     assert_eq!(blend.command(), None, "two files of one path");
 }
 
@@ -118,7 +124,7 @@ fn other_files_are_imported_and_textures_of_libraries_extracted() {
         id: "o".into(),
     };
     let (kind, file) = ("hatt", opened("Models_Oak.xml"));
-    let oak = Recipe::new([], "1", "Oak", What::Import { kind, file }).unwrap();
+    let oak = Recipe::new([], "1", "Oak", Operation::Import { kind, file }).unwrap();
     let command = "asperity import hatt Models_Oak.xml -o Oak.asp";
     assert_eq!(oak.command().as_deref(), Some(command));
     for (texture, command) in [
@@ -126,8 +132,8 @@ fn other_files_are_imported_and_textures_of_libraries_extracted() {
         ("-x", "asperity extract -o any.asp -- my.aspl -x"),
     ] {
         let (library, texture) = (opened("my.aspl"), texture.to_owned());
-        let what = What::Extract { library, texture };
-        let recipe = Recipe::new([], "2", "any", what).unwrap();
+        let operation = Operation::Extract { library, texture };
+        let recipe = Recipe::new([], "2", "any", operation).unwrap();
         assert_eq!(recipe.command().as_deref(), Some(command));
     }
 }

@@ -11,7 +11,7 @@
 use crate::{
     engine::{Block, Engine, MAX_FRAMES},
     hand::{Pointer, RATE_HZ, ROOM},
-    row::Row,
+    row::RowText,
     session::{SPARE, Session},
     spectrum::Spectrum,
     status::Status,
@@ -66,7 +66,7 @@ static WAITING: Single<[MaybeUninit<HostTexture>; SPARE]> =
 /// Where an asset is loaded before the session ends.
 static NEXT: Single<HostTexture> = Single::new(HostTexture::EMPTY);
 static REFUSED_RATE_HZ: Single<f32> = Single::new(0.0);
-static ROW: Single<Row> = Single::new(Row::EMPTY);
+static ROW: Single<RowText> = Single::new(RowText::EMPTY);
 static SPECTRUM: Single<Spectrum> = Single::new(Spectrum::SILENT);
 
 /// The bytes of an asset, `asset_capacity` of them.

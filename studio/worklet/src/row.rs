@@ -10,13 +10,13 @@ pub const CAPACITY: usize = 9 * LONGEST;
 
 /// The text of a row.
 #[derive(Debug, Clone, Copy)]
-pub struct Row {
-    /// The text, up to what [`Row::print`] returns.
+pub struct RowText {
+    /// The text, up to what [`RowText::print`] returns.
     pub text: [u8; CAPACITY],
     length: usize,
 }
 
-impl Row {
+impl RowText {
     /// An empty row.
     pub const EMPTY: Self = Self {
         text: [0; CAPACITY],
@@ -35,7 +35,7 @@ impl Row {
     }
 }
 
-impl fmt::Write for Row {
+impl fmt::Write for RowText {
     fn write_str(&mut self, text: &str) -> fmt::Result {
         let end = self.length + text.len();
         let room = self.text.get_mut(self.length..end).ok_or(fmt::Error)?;
@@ -51,7 +51,7 @@ mod tests {
 
     #[test]
     fn every_float_has_room_and_reads_back() {
-        let mut row = Row::EMPTY;
+        let mut row = RowText::EMPTY;
         let longest = (0..2000).map(|n| f32::from_bits(1 + 4201 * n));
         let longest = longest.max_by_key(|x| x.to_string().len()).unwrap();
         for number in [

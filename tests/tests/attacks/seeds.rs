@@ -10,7 +10,7 @@ use asperity::interchange::{ClipFormat, Options, export, session};
 use asperity_diffusion::tiny;
 use asperity_formats::{SceneSurface, Solid, library};
 use asperity_tests::draw::Draw;
-use asperity_tests::texture::{Kind, random, random_law};
+use asperity_tests::texture::{TextureKind, random, random_law};
 use std::{ffi::OsString, fmt::Write as _, fs, os::unix::fs::symlink, path::Path};
 use tempfile::TempDir;
 
@@ -195,7 +195,7 @@ impl Seeds {
         let entry = entry.strip_prefix(&cache).expect("in the cache");
         let entry = entry.to_str().expect("a name of letters").to_owned();
         let asset = builtin();
-        let mut other = random(1, Kind::nyquist(4));
+        let mut other = random(1, TextureKind::nyquist(4));
         other.law = random_law(&mut Draw::new(1), 200.0, 2.0);
         let other = other.encode();
         let named = [("a", &asset[..]), ("b", &other[..])];

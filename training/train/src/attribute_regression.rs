@@ -19,7 +19,7 @@ use asperity_corpus::{Material, Rating};
 
 /// Rough, slippery and hard, as dB re 1 (m/s²)², −ln μ and ln Hz: the scales on which the compiler
 /// moves a texture.
-pub(crate) type Felt = [f32; 3];
+pub(crate) type AttributeValues = [f32; 3];
 
 /// Share of what hardness adds to the level of a roughness that counts. People call rough what is deep: with all of it,
 /// deep and soft things fall behind hard and smooth ones.
@@ -31,11 +31,11 @@ pub(crate) struct AttributeRegression {
     /// γ.
     pub(crate) concentration: f32,
     /// The mean of the examples.
-    pub(crate) mean: Felt,
+    pub(crate) mean: AttributeValues,
     /// a, an example of the memory each.
-    pub(crate) coefficients: Vec<Felt>,
+    pub(crate) coefficients: Vec<AttributeValues>,
     /// Attributes of the materials.
-    pub(crate) materials: Vec<Felt>,
+    pub(crate) materials: Vec<AttributeValues>,
     /// Which examples of the memory are names, and whose.
     pub(crate) names: Names,
     /// Recall that draws names to their materials, if any.
@@ -59,13 +59,13 @@ impl AttributeRegression {
     pub(crate) fn fit(
         memory: &KernelRidge,
         materials: &[MaterialLatent],
-        (felt, ratings): (&[Felt], &[Option<Rating>]),
+        (felt, ratings): (&[AttributeValues], &[Option<Rating>]),
         captions: &Captions,
         how: &Memory,
         mut done: impl FnMut(usize, usize, f32),
     ) -> Option<Self> {
         let pairs = ratings.iter().zip(felt);
-        let rated: Vec<([f64; 3], Felt)> = pairs
+        let rated: Vec<([f64; 3], AttributeValues)> = pairs
             .filter_map(|(rating, felt)| Some((numbers(rating.as_ref()?), *felt)))
             .collect();
         if rated.is_empty() || captions.lexicon.is_empty() {
@@ -112,7 +112,7 @@ impl AttributeRegression {
     }
 
     /// Returns the attributes that texts ask for.
-    pub(crate) fn ask(&self, memory: &KernelRidge, vectors: &[&[f32]]) -> Vec<Felt> {
+    pub(crate) fn ask(&self, memory: &KernelRidge, vectors: &[&[f32]]) -> Vec<AttributeValues> {
         let mut felt = memory.apply(vectors, self.concentration, &self.coefficients, &self.mean);
         if let Some(how) = &self.recall {
             for (felt, likeness) in felt.iter_mut().zip(memory.likeness(vectors)) {
@@ -123,7 +123,7 @@ impl AttributeRegression {
     }
 
     /// Draws attributes to those of the materials whose names a text is like.
-    fn draw(&self, how: &config::Recall, likeness: &[f32], felt: &mut Felt) {
+    fn draw(&self, how: &config::Recall, likeness: &[f32], felt: &mut AttributeValues) {
         let near = |x: f32| libm::expf((x - 1.0) / how.felt_temperature as f32);
         let examples = self.names.examples.iter();
         let weights: Vec<f32> = examples.map(|&example| near(likeness[example])).collect();
@@ -138,7 +138,7 @@ impl AttributeRegression {
 pub(crate) const LEAST: f32 = 1e-30;
 
 /// The attributes of a material, by its prototype.
-pub(crate) fn of(material: &Material, layout: &Layout) -> Felt {
+pub(crate) fn of(material: &Material, layout: &Layout) -> AttributeValues {
     let attributes = attributes::of(&material.prototype, layout);
     let ln = |x: f64| libm::log(x.max(f64::MIN_POSITIVE)) as f32;
     [
@@ -157,7 +157,7 @@ struct ByRatings {
 }
 
 impl ByRatings {
-    fn fit(rated: &[([f64; 3], Felt)]) -> Self {
+    fn fit(rated: &[([f64; 3], AttributeValues)]) -> Self {
         let column = |k: usize| rated.iter().map(move |(_, felt)| f64::from(felt[k]));
         let rough_and_hard: Vec<Vec<f64>> = rated.iter().map(|(r, _)| vec![r[0], r[2]]).collect();
         let levels: Vec<f64> = column(0).collect();
@@ -176,7 +176,7 @@ impl ByRatings {
         }
     }
 
-    fn felt(&self, rating: &[f64; 3]) -> Felt {
+    fn felt(&self, rating: &[f64; 3]) -> AttributeValues {
         let mut felt: [f64; 3] =
             std::array::from_fn(|k| self.lines[k].offset + self.lines[k].direction[0] * rating[k]);
         felt[0] += self.level_per_hard * rating[2];
@@ -195,7 +195,7 @@ mod tests {
     #[test]
     fn half_of_what_hardness_adds_to_a_level_counts_and_the_mean_stays() {
         // Level = rough + 0.2·hard, no correlation between the two.
-        let rated: Vec<([f64; 3], Felt)> = (0..100)
+        let rated: Vec<([f64; 3], AttributeValues)> = (0..100)
             .map(|n| (f64::from(10 * (n % 10)), f64::from(10 * (n / 10))))
             .map(|(rough, hard)| {
                 let level = rough + 0.2 * hard;

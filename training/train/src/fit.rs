@@ -1,7 +1,7 @@
 //! A run from corpus to trained model.
 
 use crate::{
-    attribute_regression::{self, AttributeRegression, Felt},
+    attribute_regression::{self, AttributeRegression, AttributeValues},
     attributes::Layout,
     batch::Instances,
     captions::Captions,
@@ -16,7 +16,7 @@ use crate::{
     progress::Progress,
     rng::{Purpose, Stream},
     text_stage,
-    trained::{Seen, Trained, posteriors},
+    trained::{Modalities, Trained, posteriors},
     vae::{Run, State},
 };
 use asperity::learned::description::LATENT;
@@ -67,7 +67,7 @@ struct TrainingRun<'a> {
     network: Network,
     instances: Instances,
     ratings: Vec<Option<Rating>>,
-    felt: Vec<Felt>,
+    felt: Vec<AttributeValues>,
     state: State,
 }
 
@@ -219,7 +219,7 @@ fn locate(
     instances: &Instances,
     captions: &Captions,
 ) -> (Vec<MaterialLatent>, [f32; LATENT]) {
-    let posteriors = posteriors(network, parameters, &instances.coded, Seen::Both);
+    let posteriors = posteriors(network, parameters, &instances.coded, Modalities::Both);
     let mut square = [0.0_f64; LATENT];
     let located: Vec<MaterialLatent> = materials
         .iter()

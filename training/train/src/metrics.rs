@@ -4,7 +4,7 @@ use crate::{
     captions::{Captions, cosine},
     normaliser::{AR, Coded, LSFS, TAP_VALUES},
     progress::EpochLoss,
-    trained::{Seen, Trained},
+    trained::{Modalities, Trained},
     words_held_out::{self, WordsHeldOut},
 };
 use asperity::learned::description::LATENT;
@@ -60,7 +60,7 @@ pub fn measure(trained: &Trained, corpus: &Corpus, captions: &Captions) -> Metri
         .flat_map(|m| &corpus.materials[m.material].instances)
         .collect();
     let means: Vec<[f32; LATENT]> = trained
-        .encode(&instances, Seen::Both)
+        .encode(&instances, Modalities::Both)
         .iter()
         .map(|p| p.mean)
         .collect();

@@ -1,7 +1,7 @@
 //! A trained model, before it is a folder: encode, decode, project.
 
 use crate::{
-    attribute_regression::{AttributeRegression, Felt},
+    attribute_regression::{AttributeRegression, AttributeValues},
     coding,
     config::{Config, Excitation},
     kernel_ridge::KernelRidge,
@@ -22,7 +22,7 @@ const CHUNK: usize = 256;
 
 /// Modalities of an instance that an encoder sees.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Seen {
+pub(crate) enum Modalities {
     /// AR models and traces.
     Both,
     /// AR models alone.
@@ -63,12 +63,12 @@ pub struct Trained {
 }
 
 impl Trained {
-    /// Posteriors of instances, of which the encoders see what `seen` says.
-    pub(crate) fn encode(&self, instances: &[&Instance], seen: Seen) -> Vec<Gaussian> {
+    /// Posteriors of instances, of which the encoders see these `modalities`.
+    pub(crate) fn encode(&self, instances: &[&Instance], modalities: Modalities) -> Vec<Gaussian> {
         let coding = self.normaliser.coding;
         let mut coded = Coded::of(coding, instances.iter().copied());
         self.normaliser.normalise(&mut coded);
-        posteriors(&self.network, &self.parameters, &coded, seen)
+        posteriors(&self.network, &self.parameters, &coded, modalities)
     }
 
     /// The instances that latents decode to: ordered LSFs, levels and samples within
@@ -131,7 +131,7 @@ impl Trained {
 
     /// Returns the roughness, slipperiness and hardness that text vectors ask for; empty from a model without that
     /// regression.
-    pub(crate) fn feel(&self, vectors: &[&[f32]]) -> Vec<Felt> {
+    pub(crate) fn feel(&self, vectors: &[&[f32]]) -> Vec<AttributeValues> {
         match (&self.feel, &self.memory) {
             (Some(feel), Some(memory)) => {
                 let chunks = vectors.chunks(CHUNK);
@@ -172,7 +172,7 @@ pub(crate) fn posteriors(
     network: &Network,
     parameters: &Parameters,
     coded: &Coded,
-    seen: Seen,
+    modalities: Modalities,
 ) -> Vec<Gaussian> {
     let device = Device::flex();
     let bound = parameters.bind(&device);
@@ -182,7 +182,9 @@ pub(crate) fn posteriors(
         .chunks(CHUNK * AR)
         .zip(coded.taps.chunks(CHUNK * TAP_VALUES))
     {
-        all.extend(posterior_chunk(network, &bound, ar, taps, seen, &device));
+        all.extend(posterior_chunk(
+            network, &bound, ar, taps, modalities, &device,
+        ));
     }
     all
 }
@@ -192,13 +194,13 @@ fn posterior_chunk(
     bound: &Bound,
     ar: &[f32],
     taps: &[f32],
-    seen: Seen,
+    modalities: Modalities,
     device: &Device,
 ) -> Vec<Gaussian> {
-    let present = match seen {
-        Seen::Both => [1.0, 1.0],
-        Seen::Ar => [1.0, 0.0],
-        Seen::Taps => [0.0, 1.0],
+    let present = match modalities {
+        Modalities::Both => [1.0, 1.0],
+        Modalities::Ar => [1.0, 0.0],
+        Modalities::Taps => [0.0, 1.0],
     };
     let count = ar.len() / AR;
     let posterior = network.encoder.forward(

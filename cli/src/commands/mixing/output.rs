@@ -4,7 +4,7 @@ use crate::{
     cli::Mixed,
     commands::{
         input::Input,
-        one_texture::{Job, Wanted},
+        one_texture::{Job, RequestedOutputs},
     },
 };
 use asperity::sources::{
@@ -30,8 +30,8 @@ impl<'a> Mixing<'a> {
     ) -> Result<Self, Failures> {
         let mut files: Vec<_> = inputs.iter().map(|input| input.file.clone()).collect();
         files.extend(args.inference.setup().files());
-        let wanted = Wanted::of(&args.output, args.reporting);
-        let job = Job::open(wanted, &files, console)?;
+        let requested = RequestedOutputs::of(&args.output, args.reporting);
+        let job = Job::open(requested, &files, console)?;
         Ok(Self { args, job })
     }
 

@@ -9,7 +9,7 @@ const MIB: u64 = 1024 * KIB;
 /// The role that a file plays as an input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Kind {
+pub enum InputKind {
     /// An asset (.asp), or a library (.aspl) that is held in memory as a whole.
     Asset,
     /// A material of the HaTT, XML.
@@ -48,7 +48,7 @@ pub enum Kind {
     StudioModule,
 }
 
-impl Kind {
+impl InputKind {
     /// All kinds.
     pub const ALL: [Self; 18] = [
         Self::Asset,
@@ -145,7 +145,7 @@ impl Kind {
     }
 }
 
-impl fmt::Display for Kind {
+impl fmt::Display for InputKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Asset => "an asset",

@@ -1,6 +1,6 @@
 //! Reading files of strangers: every file that a command reads comes through here.
 //!
-//! A file is opened once and read up to the limit of its [`Kind`]. Devices, sockets and folders are
+//! A file is opened once and read up to the limit of its [`InputKind`]. Devices, sockets and folders are
 //! refused before they are opened. A pipe is read by a thread of its own, and a wait for its bytes
 //! ends in an error. What is of another known format than its kind is refused by that
 //! format's name. `docs/limits.md` lists every limit.
@@ -21,7 +21,7 @@ mod tests;
 mod xml;
 
 pub use format::{Format, HEAD};
-pub use kind::Kind;
+pub use kind::InputKind;
 pub use lenient_json::{json_fault, lenient_json};
 pub use open::{Opened, format_of, open, open_as};
 pub use pipe_timeout::{MAX_SILENCE, MAX_WAIT};

@@ -2,7 +2,7 @@
 
 use super::{
     format::{Format, HEAD},
-    kind::Kind,
+    kind::InputKind,
     pipe::Pipe,
     problem::InputProblem,
     signatures::POINTER_BYTES,
@@ -63,7 +63,7 @@ pub fn open(path: &Path) -> Result<Opened, InputProblem> {
 ///
 /// # Errors
 /// As [`open`], and [`InputProblem::OtherFormat`] for a regular file whose first bytes are of another format.
-pub fn open_as(path: &Path, kind: Kind) -> Result<Opened, InputProblem> {
+pub fn open_as(path: &Path, kind: InputKind) -> Result<Opened, InputProblem> {
     let mut opened = open(path)?;
     if let Opened::File(file) = &mut opened {
         let bytes = head(file, HEAD as u64).map_err(InputProblem::Unreadable)?;

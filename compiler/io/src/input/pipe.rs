@@ -28,7 +28,7 @@ pub struct Pipe {
     chunks: Receiver<io::Result<Vec<u8>>>,
     /// The chunk that is handed out, and how much of it has been.
     chunk: Vec<u8>,
-    taken: usize,
+    consumed: usize,
     waited: Duration,
 }
 
@@ -63,7 +63,7 @@ impl Pipe {
         Ok(Self {
             chunks,
             chunk: Vec::new(),
-            taken: 0,
+            consumed: 0,
             waited: Duration::ZERO,
         })
     }
@@ -86,14 +86,14 @@ impl Pipe {
 
 impl Read for Pipe {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        if self.taken == self.chunk.len() {
+        if self.consumed == self.chunk.len() {
             self.chunk = self.next_chunk()?;
-            self.taken = 0;
+            self.consumed = 0;
         }
-        let left = &self.chunk[self.taken..];
+        let left = &self.chunk[self.consumed..];
         let len = left.len().min(buffer.len());
         buffer[..len].copy_from_slice(&left[..len]);
-        self.taken += len;
+        self.consumed += len;
         Ok(len)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{
     format::Format,
-    kind::Kind,
+    kind::InputKind,
     pipe_timeout::{MAX_SILENCE, MAX_WAIT},
 };
 use crate::{diagnostic::Diagnostic, system};
@@ -36,7 +36,7 @@ pub enum InputProblem {
     #[error("larger than {limit} bytes, the limit for {kind}", limit = kind.max_bytes())]
     TooLarge {
         /// The kind that was expected.
-        kind: Kind,
+        kind: InputKind,
     },
     /// A pipe gave no byte for [`MAX_SILENCE`].
     #[error("cannot read it: the pipe gave nothing for {} s", MAX_SILENCE.as_secs_f32())]
@@ -92,7 +92,7 @@ impl InputProblem {
     }
 }
 
-impl Kind {
+impl InputKind {
     /// Refuses bytes that hold nothing, where every file of this kind holds something.
     pub(super) fn check_content(self, bytes: &[u8]) -> Result<(), InputProblem> {
         let holds = matches!(self, Self::Asset | Self::Hatt | Self::Model | Self::Effects);

@@ -1,7 +1,7 @@
 //! Reading a file whole, up to the limit of its kind.
 
 use super::{
-    kind::Kind,
+    kind::InputKind,
     open::{Opened, open},
     problem::InputProblem,
 };
@@ -15,7 +15,7 @@ use std::{
 /// # Errors
 /// [`InputProblem`] for a file that cannot be read, has more bytes than its kind may, or is of another
 /// [`Format`](super::Format).
-pub fn read(path: &Path, kind: Kind) -> Result<Vec<u8>, InputProblem> {
+pub fn read(path: &Path, kind: InputKind) -> Result<Vec<u8>, InputProblem> {
     let opened = open(path)?;
     if let Opened::File(file) = &opened
         && file.metadata().map_err(InputProblem::Unreadable)?.len() > kind.max_bytes()
@@ -29,7 +29,7 @@ pub fn read(path: &Path, kind: Kind) -> Result<Vec<u8>, InputProblem> {
 ///
 /// # Errors
 /// As [`read`].
-pub fn to_end(reader: impl Read, kind: Kind) -> Result<Vec<u8>, InputProblem> {
+pub fn to_end(reader: impl Read, kind: InputKind) -> Result<Vec<u8>, InputProblem> {
     let mut bytes = Vec::new();
     let limit = kind.max_bytes();
     // One byte more tells a file of just the limit from a larger one.
@@ -46,7 +46,7 @@ pub fn to_end(reader: impl Read, kind: Kind) -> Result<Vec<u8>, InputProblem> {
 /// # Errors
 /// [`InputProblem`] for more bytes than the kind may have, for an empty file where the kind must not be empty, and for
 /// those of another [`Format`](super::Format).
-pub fn admit(bytes: &[u8], kind: Kind) -> Result<(), InputProblem> {
+pub fn admit(bytes: &[u8], kind: InputKind) -> Result<(), InputProblem> {
     if bytes.len() as u64 > kind.max_bytes() {
         return Err(InputProblem::TooLarge { kind });
     }
@@ -58,7 +58,7 @@ pub fn admit(bytes: &[u8], kind: Kind) -> Result<(), InputProblem> {
 ///
 /// # Errors
 /// As [`read`], and [`InputProblem::NotUtf8`].
-pub fn read_text(path: &Path, kind: Kind) -> Result<String, InputProblem> {
+pub fn read_text(path: &Path, kind: InputKind) -> Result<String, InputProblem> {
     let bytes = read(path, kind)?;
     text(&bytes).map(str::to_owned)
 }

@@ -11,7 +11,7 @@ use std::{
 fn a_file_is_read_up_to_its_limit_and_no_further() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("file");
-    for kind in Kind::ALL {
+    for kind in InputKind::ALL {
         // No bytes on the disk.
         let limit = kind.max_bytes();
         File::create(&path).unwrap().set_len(limit + 1).unwrap();
@@ -25,11 +25,11 @@ fn a_file_is_read_up_to_its_limit_and_no_further() {
     }
     File::create(&path)
         .unwrap()
-        .set_len(Kind::Scene.max_bytes())
+        .set_len(InputKind::Scene.max_bytes())
         .unwrap();
-    let bytes = read(&path, Kind::Scene).unwrap();
-    assert_eq!(bytes.len() as u64, Kind::Scene.max_bytes());
-    let endless = to_end(std::io::repeat(b'#'), Kind::Scene).unwrap_err();
+    let bytes = read(&path, InputKind::Scene).unwrap();
+    assert_eq!(bytes.len() as u64, InputKind::Scene.max_bytes());
+    let endless = to_end(std::io::repeat(b'#'), InputKind::Scene).unwrap_err();
     assert!(
         matches!(endless, InputProblem::TooLarge { .. }),
         "{endless}"
@@ -40,7 +40,7 @@ fn a_file_is_read_up_to_its_limit_and_no_further() {
 fn a_pointer_is_refused_for_every_kind_and_words_are_no_format() {
     let pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n";
     let words = br#"{"Pattern": 1, "perceptions": 2, "signals": 3}"#;
-    for kind in Kind::ALL {
+    for kind in InputKind::ALL {
         let problem = to_end(&pointer[..], kind).unwrap_err();
         assert!(
             matches!(problem, InputProblem::LfsPointer),
@@ -48,10 +48,14 @@ fn a_pointer_is_refused_for_every_kind_and_words_are_no_format() {
         );
         assert!(problem.remedy().contains("git lfs pull"), "{kind}");
     }
-    for kind in [Kind::Vocabulary, Kind::DiffusionConfig, Kind::Description] {
+    for kind in [
+        InputKind::Vocabulary,
+        InputKind::DiffusionConfig,
+        InputKind::Description,
+    ] {
         assert!(to_end(&words[..], kind).is_ok(), "{kind}");
     }
-    let scene = to_end(&words[..], Kind::Scene).unwrap_err();
+    let scene = to_end(&words[..], InputKind::Scene).unwrap_err();
     assert_eq!(
         scene.to_string(),
         "an AHAP (Apple Haptic and Audio Pattern), not a scene"
@@ -148,7 +152,12 @@ fn what_nothing_reads_is_named_and_what_is_read_is_not_taken_for_it() {
         assert!(!found.remedy().is_empty(), "{text}");
         let holds_data = ["bzip2", "zstd"].contains(&name);
         assert_eq!(found.holds_data(), holds_data, "{text}");
-        for kind in [Kind::Asset, Kind::Model, Kind::Scene, Kind::Manifest] {
+        for kind in [
+            InputKind::Asset,
+            InputKind::Model,
+            InputKind::Scene,
+            InputKind::Manifest,
+        ] {
             assert!(admit(bytes, kind).is_err(), "{kind}: {text}");
         }
     }
@@ -172,11 +181,16 @@ fn what_nothing_reads_is_named_and_what_is_read_is_not_taken_for_it() {
 #[test]
 fn nothing_is_no_asset_and_no_effect() {
     for bytes in [&b""[..], b"\n \t", &[0; 512]] {
-        for kind in [Kind::Asset, Kind::Hatt, Kind::Model, Kind::Effects] {
+        for kind in [
+            InputKind::Asset,
+            InputKind::Hatt,
+            InputKind::Model,
+            InputKind::Effects,
+        ] {
             let problem = admit(bytes, kind).unwrap_err();
             assert!(matches!(problem, InputProblem::Empty), "{kind}: {problem}");
         }
-        assert!(admit(bytes, Kind::Manifest).is_ok());
+        assert!(admit(bytes, InputKind::Manifest).is_ok());
     }
 }
 
@@ -236,7 +250,7 @@ fn text_is_utf_8_with_or_without_a_mark() {
 #[test]
 fn what_is_no_file_is_refused_before_it_is_opened() {
     let folder = tempfile::tempdir().unwrap();
-    let problem = |path: &Path| read(path, Kind::Scene).unwrap_err();
+    let problem = |path: &Path| read(path, InputKind::Scene).unwrap_err();
     assert!(matches!(problem(folder.path()), InputProblem::Folder));
     let missing = folder.path().join("missing");
     assert!(matches!(problem(&missing), InputProblem::Unreadable(_)));
@@ -270,11 +284,11 @@ mod unix {
         let (socket, link) = (folder.path().join("socket"), folder.path().join("link"));
         let _listener = UnixListener::bind(&socket).unwrap();
         for path in [Path::new("/dev/zero"), Path::new("/dev/null"), &socket] {
-            let problem = read(path, Kind::Scene).unwrap_err();
+            let problem = read(path, InputKind::Scene).unwrap_err();
             assert!(matches!(problem, InputProblem::Device), "{problem}");
         }
         std::os::unix::fs::symlink(&link, &link).unwrap();
-        let problem = read(&link, Kind::Scene).unwrap_err();
+        let problem = read(&link, InputKind::Scene).unwrap_err();
         assert!(matches!(problem, InputProblem::Unreadable(_)), "{problem}");
     }
 
@@ -285,7 +299,7 @@ mod unix {
         let sent: Vec<u8> = (0..300_000_u32).map(|n| n as u8).collect();
         let (writer, bytes) = (path.clone(), sent.clone());
         let write = thread::spawn(move || fs::write(writer, bytes));
-        assert_eq!(read(&path, Kind::Asset).unwrap(), sent);
+        assert_eq!(read(&path, InputKind::Asset).unwrap(), sent);
         write.join().unwrap().unwrap();
     }
 
@@ -299,7 +313,7 @@ mod unix {
             let mut file = File::options().write(true).open(writer)?;
             std::io::copy(&mut std::io::repeat(b'#'), &mut file)
         });
-        let problem = read(&path, Kind::Scene).unwrap_err();
+        let problem = read(&path, InputKind::Scene).unwrap_err();
         assert!(
             matches!(problem, InputProblem::TooLarge { .. }),
             "{problem}"
@@ -312,7 +326,7 @@ mod unix {
         let folder = tempfile::tempdir().unwrap();
         let path = pipe(folder.path());
         let from = Instant::now();
-        let problem = read(&path, Kind::Scene).unwrap_err();
+        let problem = read(&path, InputKind::Scene).unwrap_err();
         assert!(matches!(problem, InputProblem::Silent), "{problem}");
         assert!(from.elapsed() >= MAX_SILENCE);
         // A writer that opens and waits is given up as well.

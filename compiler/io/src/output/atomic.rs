@@ -22,11 +22,11 @@ use tempfile::{NamedTempFile, TempPath};
 #[derive(Debug)]
 pub struct AtomicFile {
     target: PathBuf,
-    place: Place,
+    destination: Destination,
 }
 
 #[derive(Debug)]
-enum Place {
+enum Destination {
     Beside {
         /// `None` once it has its name.
         file: Option<Temporary>,
@@ -75,7 +75,7 @@ impl AtomicFile {
         if is_standard_output(target) {
             return Ok(Self {
                 target: "standard output".into(),
-                place: Place::Stream(Stream::to(Sink::StandardOutput)),
+                destination: Destination::Stream(Stream::to(Sink::StandardOutput)),
             });
         }
         let existing = fs::metadata(target).ok();
@@ -90,7 +90,7 @@ impl AtomicFile {
                 .map_err(|e| fail("cannot open it for writing", e))?;
             return Ok(Self {
                 target: target.to_owned(),
-                place: Place::Stream(Stream::to(Sink::File(file))),
+                destination: Destination::Stream(Stream::to(Sink::File(file))),
             });
         }
         if let Some(metadata) = &existing {
@@ -104,10 +104,10 @@ impl AtomicFile {
         }
         // Of a symbolic link, the file that it points to is replaced.
         let file = Self::beside(target, followed(target))?;
-        let kept = match (existing, &file.place) {
+        let kept = match (existing, &file.destination) {
             (
                 Some(metadata),
-                Place::Beside {
+                Destination::Beside {
                     file: Some(Temporary::Open(file)),
                     ..
                 },
@@ -147,7 +147,7 @@ impl AtomicFile {
         list.insert(file.path().to_path_buf());
         Ok(Self {
             target: target.to_owned(),
-            place: Place::Beside {
+            destination: Destination::Beside {
                 file: Some(Temporary::Open(file)),
                 path,
             },
@@ -163,13 +163,13 @@ impl AtomicFile {
     /// Returns true if the bytes go to standard output.
     #[must_use]
     pub fn is_standard_output(&self) -> bool {
-        matches!(&self.place, Place::Stream(stream) if stream.is_standard_output())
+        matches!(&self.destination, Destination::Stream(stream) if stream.is_standard_output())
     }
 
     /// Returns true if the target is not a regular file, such as a pipe or a terminal.
     #[must_use]
     pub fn is_stream(&self) -> bool {
-        matches!(self.place, Place::Stream(_))
+        matches!(self.destination, Destination::Stream(_))
     }
 
     /// Makes what was written the target, replacing what was there.
@@ -183,16 +183,16 @@ impl AtomicFile {
 
     /// Hands over what a stream has been given. Does nothing to a file.
     pub(super) fn release(&mut self) -> Result<(), OutputError> {
-        let released = match &mut self.place {
-            Place::Stream(stream) => stream.release(),
-            Place::Beside { .. } => Ok(()),
+        let released = match &mut self.destination {
+            Destination::Stream(stream) => stream.release(),
+            Destination::Beside { .. } => Ok(()),
         };
         released.map_err(|source| self.error("cannot write it", source))
     }
 
     /// Gives a file its name, under the lock of the list. Does nothing to a stream.
     pub(super) fn rename(&mut self, list: &mut BTreeSet<PathBuf>) -> Result<(), OutputError> {
-        let Place::Beside { file, path } = &mut self.place else {
+        let Destination::Beside { file, path } = &mut self.destination else {
             return Ok(());
         };
         let Some(file) = file.take() else {
@@ -220,7 +220,7 @@ impl AtomicFile {
     pub(super) fn close(&mut self) -> Result<(), OutputError> {
         self.flush()
             .map_err(|source| self.error("cannot write it", source))?;
-        if let Place::Beside { file, .. } = &mut self.place {
+        if let Destination::Beside { file, .. } = &mut self.destination {
             *file = file.take().map(|file| match file {
                 Temporary::Open(file) => Temporary::Complete(file.into_temp_path()),
                 complete @ Temporary::Complete(_) => complete,
@@ -254,7 +254,7 @@ fn writable(target: &Path, metadata: &fs::Metadata) -> io::Result<()> {
 
 impl Drop for AtomicFile {
     fn drop(&mut self) {
-        if let Place::Beside { file, .. } = &mut self.place
+        if let Destination::Beside { file, .. } = &mut self.destination
             && let Some(file) = file.take()
         {
             // Removed before it leaves the list.
@@ -269,24 +269,24 @@ impl Drop for AtomicFile {
 // Written to the file itself: errors of the temporary file name it.
 impl Write for AtomicFile {
     fn write(&mut self, buffer: &[u8]) -> io::Result<usize> {
-        match &mut self.place {
-            Place::Beside {
+        match &mut self.destination {
+            Destination::Beside {
                 file: Some(Temporary::Open(file)),
                 ..
             } => file.as_file_mut().write(buffer),
-            Place::Beside { .. } => Err(io::ErrorKind::NotFound.into()),
-            Place::Stream(stream) => stream.held().write(buffer),
+            Destination::Beside { .. } => Err(io::ErrorKind::NotFound.into()),
+            Destination::Stream(stream) => stream.held().write(buffer),
         }
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        match &mut self.place {
-            Place::Beside {
+        match &mut self.destination {
+            Destination::Beside {
                 file: Some(Temporary::Open(file)),
                 ..
             } => file.as_file_mut().flush(),
-            Place::Beside { .. } => Ok(()),
-            Place::Stream(stream) => stream.held().flush(),
+            Destination::Beside { .. } => Ok(()),
+            Destination::Stream(stream) => stream.held().flush(),
         }
     }
 }

@@ -86,7 +86,7 @@ pub struct Table<R> {
 
 /// A row: its line, and the text in its columns.
 #[derive(Debug, Clone, Copy)]
-pub struct Row<'a> {
+pub struct TableRow<'a> {
     /// The line, from 1.
     pub line: u64,
     record: &'a ByteRecord,
@@ -136,7 +136,7 @@ impl<R: Read> Table<R> {
     ///
     /// # Errors
     /// [`TableError`] for a row whose number of values is wrong, or names in place of numbers.
-    pub fn next_row(&mut self) -> Result<Option<Row<'_>>, TableError> {
+    pub fn next_row(&mut self) -> Result<Option<TableRow<'_>>, TableError> {
         loop {
             self.row_bytes.set(0);
             let line = self.reader.position().line();
@@ -163,7 +163,7 @@ impl<R: Read> Table<R> {
                 continue;
             }
             let (record, layout) = (&self.record, &self.layout);
-            return Ok(Some(Row {
+            return Ok(Some(TableRow {
                 line,
                 record,
                 layout,
@@ -225,7 +225,7 @@ impl<R: Read> Table<R> {
     }
 }
 
-impl<'a> Row<'a> {
+impl<'a> TableRow<'a> {
     /// The text in a column, without its label where the rows name their columns; bytes that are no UTF-8 are
     /// replaced. Empty where the row has no such column.
     #[must_use]

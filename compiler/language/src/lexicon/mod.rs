@@ -25,18 +25,18 @@ pub fn is_name(text: &str) -> bool {
     name(&text.split(' ').collect::<Vec<_>>()).is_some()
 }
 
-/// The longest name that words begin with, of those that are `taken`, and how many words it has. In "violet wool" the
-/// first is a colour.
+/// The longest name that words begin with, of those that `accepts` holds for, and how many words it has. In "violet
+/// wool" the first is a colour.
 pub(crate) fn longest(
     words: &[&str],
-    taken: impl Fn(usize, &str) -> bool,
+    accepts: impl Fn(usize, &str) -> bool,
 ) -> Option<(usize, &'static str)> {
     let coloured = |count: usize| {
         let next = words.get(1).is_some_and(|next| !is_grammar(next));
         count == 1 && next && is_colour(words[0])
     };
     (1..=words.len().min(LONGEST)).rev().find_map(|count| {
-        let name = name(&words[..count]).filter(|name| taken(count, name))?;
+        let name = name(&words[..count]).filter(|name| accepts(count, name))?;
         (!coloured(count)).then_some((count, name))
     })
 }

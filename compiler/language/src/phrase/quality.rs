@@ -50,7 +50,7 @@ pub fn is_degree(word: &str) -> bool {
 }
 
 /// A quality that was found, and the words that it took.
-struct Found {
+struct QualityMatch {
     signs: Signs,
     range: Range,
     /// Words from..to.
@@ -81,7 +81,7 @@ pub(super) fn divide(words: &[String], about: Use) -> Option<(Changes, Vec<Strin
 }
 
 /// The quality whose adjective stands here, or whose noun follows "without" or "more" here.
-fn quality(words: &[String], at: usize, about: Use) -> Option<Found> {
+fn quality(words: &[String], at: usize, about: Use) -> Option<QualityMatch> {
     let word = words[at].as_str();
     if ["without", "no", "lacking"].contains(&word) {
         return lacked(words, at, about);
@@ -159,7 +159,7 @@ fn quality(words: &[String], at: usize, about: Use) -> Option<Found> {
             .position(ends)
             .map_or(words.len(), |n| to + n);
     }
-    let found = Found {
+    let found = QualityMatch {
         signs,
         range,
         from,
@@ -169,7 +169,7 @@ fn quality(words: &[String], at: usize, about: Use) -> Option<Found> {
 }
 
 /// The degree that follows: "rougher by a lot", "softer, but only slightly".
-fn afterwards(words: &[String], found: Found, about: Use) -> Found {
+fn afterwards(words: &[String], found: QualityMatch, about: Use) -> QualityMatch {
     if about != Use::Edit {
         return found;
     }
@@ -198,7 +198,7 @@ fn afterwards(words: &[String], found: Found, about: Use) -> Found {
         was if was == less => (-range.1, -range.0),
         _ => return found,
     };
-    Found {
+    QualityMatch {
         range,
         to: to + 1,
         ..found
@@ -206,7 +206,7 @@ fn afterwards(words: &[String], found: Found, about: Use) -> Found {
 }
 
 /// "without its roughness", "that has no tread".
-fn lacked(words: &[String], at: usize, about: Use) -> Option<Found> {
+fn lacked(words: &[String], at: usize, about: Use) -> Option<QualityMatch> {
     let mut to = at + 1;
     // "without its grit", "without so much grip"
     while words.get(to).is_some_and(|word| {
@@ -216,7 +216,7 @@ fn lacked(words: &[String], at: usize, about: Use) -> Option<Found> {
     }
     let word = words.get(to)?;
     let signs = noun(word, about).or_else(|| adjective(word, about))?;
-    Some(Found {
+    Some(QualityMatch {
         signs,
         range: NOT,
         from: at,
@@ -225,7 +225,7 @@ fn lacked(words: &[String], at: usize, about: Use) -> Option<Found> {
 }
 
 /// "more grip", "a bit less friction"; of an edit also "add some grit", "reduce the roughness".
-fn directed(words: &[String], at: usize, about: Use) -> Option<Found> {
+fn directed(words: &[String], at: usize, about: Use) -> Option<QualityMatch> {
     // "iron with rust"
     let has = words[at] == "with" && about == Use::Thing;
     let up = match table::direction(&words[at], about == Use::Edit) {
@@ -256,7 +256,7 @@ fn directed(words: &[String], at: usize, about: Use) -> Option<Found> {
     }
     let (least, most) = range.filter(|range| range.0 > 0.0).unwrap_or(PLAIN);
     let range = if up { (least, most) } else { (-most, -least) };
-    let found = Found {
+    let found = QualityMatch {
         signs,
         range,
         from,
@@ -266,14 +266,14 @@ fn directed(words: &[String], at: usize, about: Use) -> Option<Found> {
 }
 
 /// "the friction up", "grip down a little", of an edit alone.
-fn turned(words: &[String], at: usize, about: Use) -> Option<Found> {
+fn turned(words: &[String], at: usize, about: Use) -> Option<QualityMatch> {
     let signs = noun(&words[at], about).filter(|_| about == Use::Edit)?;
     let range = match words.get(at + 1)?.as_str() {
         "up" | "higher" | "more" => PLAIN,
         "down" | "lower" | "less" => (-PLAIN.1, -PLAIN.0),
         _ => return None,
     };
-    let found = Found {
+    let found = QualityMatch {
         signs,
         range,
         from: at,
@@ -298,7 +298,7 @@ fn noun(word: &str, about: Use) -> Option<Signs> {
     table::noun(word).or_else(edit)
 }
 
-fn apply(changes: &mut Changes, found: &Found) {
+fn apply(changes: &mut Changes, found: &QualityMatch) {
     let attributes = [&mut changes.rough, &mut changes.slippery, &mut changes.hard];
     for (change, sign) in attributes.into_iter().zip(found.signs) {
         if sign == 0 {

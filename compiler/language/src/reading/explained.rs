@@ -21,7 +21,7 @@ pub struct Interpretation {
 impl Reading {
     /// Returns the role of every word, those that are not encoded at the end.
     #[must_use]
-    pub fn taken(&self) -> Vec<Interpretation> {
+    pub fn interpretations(&self) -> Vec<Interpretation> {
         let role = |text: &String| match text.as_str() {
             text if Grade::of(text).is_some() => "number",
             text if phrase::is_quality(text) => "quality",
@@ -41,11 +41,11 @@ impl Reading {
         };
         let gone = self.ignored.iter().filter(|text| !said(text));
         let gone = gone.map(|text| (text, "left out")).chain(others);
-        let taken = |(text, role): (&String, _)| Interpretation {
+        let interpretation = |(text, role): (&String, _)| Interpretation {
             text: text.clone(),
             role,
         };
-        kept.chain(gone).map(taken).collect()
+        kept.chain(gone).map(interpretation).collect()
     }
 
     /// Returns the meaning of the words together, in a line.

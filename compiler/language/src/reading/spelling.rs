@@ -29,7 +29,7 @@ pub struct Correction {
     /// The word as it was typed.
     pub said: String,
     /// The corrected word.
-    pub taken: String,
+    pub corrected: String,
     /// True if another correction is as likely: the corrected word is a guess.
     pub doubtful: bool,
 }
@@ -95,12 +95,14 @@ fn whole(tokens: &mut Vec<Token>) -> Option<Correction> {
         let several = key.contains(' ') && key.len().abs_diff(said.len()) <= 1;
         several && strsim::osa_distance(key, &said) <= 1
     };
-    let taken = lexicon::keys().find(near)?.to_owned();
-    let taken_words = taken.split(' ').map(|word| Token::Word(word.to_owned()));
-    *tokens = taken_words.collect();
+    let corrected = lexicon::keys().find(near)?.to_owned();
+    let corrected_words = corrected
+        .split(' ')
+        .map(|word| Token::Word(word.to_owned()));
+    *tokens = corrected_words.collect();
     Some(Correction {
         said,
-        taken,
+        corrected,
         doubtful: false,
     })
 }
@@ -121,13 +123,13 @@ fn one_word(tokens: &mut [Token], table: &impl WordVectors) -> Option<Correction
     if word.len() < SHORT && !alone {
         return None;
     }
-    let taken = nearest(word)?.to_owned();
-    let said = std::mem::replace(word, taken.clone());
-    let first = said.as_bytes().first() == taken.as_bytes().first();
-    let sure = first && (said.len() >= SURE || is_swapped(&said, &taken));
+    let corrected = nearest(word)?.to_owned();
+    let said = std::mem::replace(word, corrected.clone());
+    let first = said.as_bytes().first() == corrected.as_bytes().first();
+    let sure = first && (said.len() >= SURE || is_swapped(&said, &corrected));
     Some(Correction {
         said,
-        taken,
+        corrected,
         doubtful: !sure,
     })
 }

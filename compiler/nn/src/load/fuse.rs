@@ -39,10 +39,10 @@ pub(crate) fn constant_products(steps: &mut [Step], constants: &[Option<Constant
     }
 }
 
-type Found = (usize, usize, Weights);
+type WeightMatrix = (usize, usize, Weights);
 
 /// A matrix of float32 that lies in the file.
-fn stored(constant: &Constant) -> Option<Found> {
+fn stored(constant: &Constant) -> Option<WeightMatrix> {
     let &[k, n] = constant.shape() else {
         return None;
     };
@@ -51,7 +51,7 @@ fn stored(constant: &Constant) -> Option<Found> {
 }
 
 /// The weights that a step expands, if they are int8 with one scale in all or one for each column.
-fn quantized(source: &Step, constants: &[Option<Constant>]) -> Option<Found> {
+fn quantized(source: &Step, constants: &[Option<Constant>]) -> Option<WeightMatrix> {
     let &DequantizeLinear { axis } = source.operator.as_dequantize()?;
     let constant = |index: usize| -> Option<&Constant> {
         let slot: Slot = source.inputs.get(index).copied().flatten()?;

@@ -10,13 +10,13 @@ use crate::{
 const WHITE: Rgb = [1.0, 1.0, 1.0];
 
 /// A clear pane that mirrors a window in slanting streaks.
-pub(super) fn glass(look: &Appearance, size: usize) -> Surface {
-    let seed = look.seed;
+pub(super) fn glass(appearance: &Appearance, size: usize) -> Surface {
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let t = fract(u + v);
         let sky = mix(
-            look.color(0),
-            look.color(1),
+            appearance.color(0),
+            appearance.color(1),
             0.5 + 0.5 * wave(v + 0.10 * gradient(u, v, 2, 2, seed)),
         );
         let streak = |from: f32, to: f32| {
@@ -34,9 +34,9 @@ pub(super) fn glass(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Ground or hammered glass: light broken by bumps.
-pub(super) fn bumpy_glass(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(12.0);
-    let seed = look.seed;
+pub(super) fn bumpy_glass(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(12.0);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let c = cell(u, v, n, n, 0.9, seed);
         let lens = 1.0 - (c.near * 1.3).min(1.0);
@@ -45,8 +45,11 @@ pub(super) fn bumpy_glass(look: &Appearance, size: usize) -> Surface {
         let sky = 0.5 + 0.5 * wave(v + 0.5 * c.way.1 / n as f32 * 4.0);
         Texel {
             height: 0.25 * lens / n as f32,
-            color: lit(mix(look.color(0), look.color(1), sky), 0.85 + 0.25 * side),
-            gloss: look.shine(0.7),
+            color: lit(
+                mix(appearance.color(0), appearance.color(1), sky),
+                0.85 + 0.25 * side,
+            ),
+            gloss: appearance.shine(0.7),
             glow: 0.35 * caustic * step(-0.2, 0.5, side)
                 + 0.30
                     * step(
@@ -60,15 +63,15 @@ pub(super) fn bumpy_glass(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Matt glass: a pale haze with a fine sparkle.
-pub(super) fn frosted(look: &Appearance, size: usize) -> Surface {
-    let seed = look.seed;
+pub(super) fn frosted(appearance: &Appearance, size: usize) -> Surface {
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let blur = 0.5 + 0.5 * wave(u + v + 0.15 * octaves(u, v, 2, 2, 2, seed));
         let fine = octaves(u, v, 100, 100, 2, seed + 1);
         let spark = nth(cell(u, v, 120, 120, 1.0, seed + 2).id, 1);
         Texel {
             height: 0.0012 * fine,
-            color: mix(look.color(0), look.color(1), blur),
+            color: mix(appearance.color(0), appearance.color(1), blur),
             gloss: 0.0,
             glow: 0.10 * fine + 0.35 * step(0.95, 1.0, spark) + 0.12 * step(0.6, 1.0, blur),
         }
@@ -76,11 +79,11 @@ pub(super) fn frosted(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Clear ice: cracks in the depth, bubbles, a wet shine.
-pub(super) fn ice(look: &Appearance, size: usize) -> Surface {
-    let seed = look.seed;
+pub(super) fn ice(appearance: &Appearance, size: usize) -> Surface {
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let depth = 0.5 + 0.75 * octaves(u, v, 2, 2, 3, seed);
-        let mut color = mix(look.color(0), look.color(1), depth);
+        let mut color = mix(appearance.color(0), appearance.color(1), depth);
         let mut white = 0.0f32;
         for (k, n) in [3, 5].into_iter().enumerate() {
             let k = k as u32;
@@ -103,20 +106,20 @@ pub(super) fn ice(look: &Appearance, size: usize) -> Surface {
         Texel {
             height: 0.014 * swell,
             color,
-            gloss: look.shine(0.8),
+            gloss: appearance.shine(0.8),
             glow: 0.28 * sheen,
         }
     })
 }
 
 /// Feathers of frost.
-pub(super) fn frost(look: &Appearance, size: usize) -> Surface {
-    let seed = look.seed;
+pub(super) fn frost(appearance: &Appearance, size: usize) -> Surface {
+    let seed = appearance.seed;
     let mut surface = Surface::of(size, |u, v| Texel {
         height: 0.0,
         color: mix(
-            look.color(0),
-            look.color(1),
+            appearance.color(0),
+            appearance.color(1),
             0.5 + 0.5 * octaves(u, v, 2, 2, 3, seed),
         ),
         gloss: 0.0,
@@ -133,7 +136,7 @@ pub(super) fn frost(look: &Appearance, size: usize) -> Surface {
                 from.0 + length * wave(turn + 0.25),
                 from.1 + length * wave(turn),
             );
-            let pale = mix(look.color(1), WHITE, 0.75);
+            let pale = mix(appearance.color(1), WHITE, 0.75);
             let thread = Thread {
                 width,
                 taper: 0.8,
@@ -163,9 +166,9 @@ pub(super) fn frost(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Fresh snow: drifts with blue shade, crumbs, sparkles.
-pub(super) fn snow(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(3.0);
-    let seed = look.seed;
+pub(super) fn snow(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(3.0);
+    let seed = appearance.seed;
     let drift = |u: f32, v: f32| {
         let w = 0.06 * octaves(u, v, 3, 3, 2, seed + 5);
         octaves(u + w, v - w, n, n + 1, 2, seed)
@@ -180,7 +183,7 @@ pub(super) fn snow(look: &Appearance, size: usize) -> Surface {
         Texel {
             height: 0.075 * mound + 0.0050 * crumb,
             color: lit(
-                mix(look.color(0), look.color(1), 0.62 * shade),
+                mix(appearance.color(0), appearance.color(1), 0.62 * shade),
                 0.90 + 0.06 * crumb,
             ),
             gloss: 0.0,
@@ -190,10 +193,10 @@ pub(super) fn snow(look: &Appearance, size: usize) -> Surface {
 }
 
 /// A still or slow liquid with waves of light.
-pub(super) fn liquid(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(4.0);
-    let seed = look.seed;
-    let shine = look.shine(0.9);
+pub(super) fn liquid(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(4.0);
+    let seed = appearance.seed;
+    let shine = appearance.shine(0.9);
     Surface::of(size, |u, v| {
         let w = 0.10 * octaves(u, v, 2, 2, 2, seed);
         let h = octaves(u + w, v - w, n, n, 2, seed + 1);
@@ -201,7 +204,10 @@ pub(super) fn liquid(look: &Appearance, size: usize) -> Surface {
         let slope = (h - ahead) * 30.0;
         Texel {
             height: 0.030 * h,
-            color: lit(mix(look.color(0), look.color(1), 0.5 + 0.7 * h), 0.95),
+            color: lit(
+                mix(appearance.color(0), appearance.color(1), 0.5 + 0.7 * h),
+                0.95,
+            ),
             gloss: shine,
             glow: 0.65 * shine * step(0.55, 1.3, slope),
         }
@@ -209,14 +215,14 @@ pub(super) fn liquid(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Drops on a smooth ground.
-pub(super) fn drops(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(9.0);
-    let seed = look.seed;
+pub(super) fn drops(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(9.0);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let shade = 0.92 + 0.12 * wave(u + v + 0.2 * gradient(u, v, 2, 2, seed));
         let mut texel = Texel {
             height: 0.0,
-            color: lit(look.color(0), shade),
+            color: lit(appearance.color(0), shade),
             gloss: 0.3,
             glow: 0.0,
         };
@@ -233,7 +239,7 @@ pub(super) fn drops(look: &Appearance, size: usize) -> Surface {
                     .sqrt();
                 texel = Texel {
                     height: 0.06 * top * radius / (n * scale) as f32,
-                    color: lit(look.color(0), shade * (0.85 + 0.40 * through)),
+                    color: lit(appearance.color(0), shade * (0.85 + 0.40 * through)),
                     gloss: 0.0,
                     glow: 0.9 * step(0.26, 0.14, spot) + 0.12 * step(0.5, 1.1, through),
                 };

@@ -11,26 +11,34 @@ use crate::{
 type Weave = fn(i32, i32) -> bool;
 
 /// Plain weave: one over, one under.
-pub(super) fn plain(look: &Appearance, size: usize) -> Surface {
-    woven(look, size, look.even(44.0), 0.5, |i, j| (i + j) & 1 == 0)
-}
-
-/// Coarse threads of uneven width, one over, one under.
-pub(super) fn coarse(look: &Appearance, size: usize) -> Surface {
-    woven(look, size, look.even(22.0), 1.0, |i, j| (i + j) & 1 == 0)
-}
-
-/// Two over, two under, a thread further each time.
-pub(super) fn twill(look: &Appearance, size: usize) -> Surface {
-    woven(look, size, look.multiple(36.0, 4), 0.6, |i, j| {
-        (i + j).rem_euclid(4) < 2
+pub(super) fn plain(appearance: &Appearance, size: usize) -> Surface {
+    woven(appearance, size, appearance.even(44.0), 0.5, |i, j| {
+        (i + j) & 1 == 0
     })
 }
 
+/// Coarse threads of uneven width, one over, one under.
+pub(super) fn coarse(appearance: &Appearance, size: usize) -> Surface {
+    woven(appearance, size, appearance.even(22.0), 1.0, |i, j| {
+        (i + j) & 1 == 0
+    })
+}
+
+/// Two over, two under, a thread further each time.
+pub(super) fn twill(appearance: &Appearance, size: usize) -> Surface {
+    woven(
+        appearance,
+        size,
+        appearance.multiple(36.0, 4),
+        0.6,
+        |i, j| (i + j).rem_euclid(4) < 2,
+    )
+}
+
 /// Two over, one under: the diagonal of denim, with light weft in dark warp, and a double seam.
-pub(super) fn denim(look: &Appearance, size: usize) -> Surface {
-    let n = look.multiple(63.0, 3);
-    let seed = look.seed;
+pub(super) fn denim(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.multiple(63.0, 3);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let slack = 0.12 / n as f32;
         let (a, b) = (
@@ -49,13 +57,13 @@ pub(super) fn denim(look: &Appearance, size: usize) -> Surface {
         let id = unit(hash(i.rem_euclid(n), 5, seed));
         let fade = 1.0 + 0.30 * worn;
         let warp = lit(
-            look.color(0),
+            appearance.color(0),
             (0.78 + 0.45 * id + slub + 0.16 * fibre) * fade,
         );
         let pale = unit(hash(i.rem_euclid(n), floor(y / 3.0), seed + 6));
         let cloth = mix(
             warp,
-            look.color(1),
+            appearance.color(1),
             under * (0.22 + 0.42 * pale + 0.25 * worn).clamp(0.0, 0.8),
         );
         let round = dome(across * 0.95);
@@ -74,7 +82,7 @@ pub(super) fn denim(look: &Appearance, size: usize) -> Surface {
             let twist = 0.85 + 0.15 * wave(v * 130.0 + u * 60.0);
             color = mix(
                 color,
-                lit(look.color(2), twist * (0.5 + 0.5 * row)),
+                lit(appearance.color(2), twist * (0.5 + 0.5 * row)),
                 step(0.05, 0.4, row),
             );
             height += 0.010 * row;
@@ -88,9 +96,9 @@ pub(super) fn denim(look: &Appearance, size: usize) -> Surface {
     })
 }
 
-fn woven(look: &Appearance, size: usize, n: i32, uneven: f32, over: Weave) -> Surface {
-    let seed = look.seed;
-    let shine = look.shine(0.05);
+fn woven(appearance: &Appearance, size: usize, n: i32, uneven: f32, over: Weave) -> Surface {
+    let seed = appearance.seed;
+    let shine = appearance.shine(0.05);
     Surface::of(size, |u, v| {
         let slack = 0.28 * uneven / n as f32;
         let a = u + slack * gradient(u, v, n / 2, n, seed);
@@ -120,7 +128,7 @@ fn woven(look: &Appearance, size: usize, n: i32, uneven: f32, over: Weave) -> Su
         let tone = (0.82 + 0.32 * thread + 0.14 * twist) * lerp(0.30, 1.0, gap);
         Texel {
             height: (0.42 * round * bulge + 0.05 * twist) / n as f32,
-            color: lit(look.color(part), tone),
+            color: lit(appearance.color(part), tone),
             gloss: shine * gap,
             glow: 0.0,
         }
@@ -128,10 +136,10 @@ fn woven(look: &Appearance, size: usize, n: i32, uneven: f32, over: Weave) -> Su
 }
 
 /// Columns of V-shaped stitches.
-pub(super) fn knit(look: &Appearance, size: usize) -> Surface {
-    let columns = look.count(12.0);
+pub(super) fn knit(appearance: &Appearance, size: usize) -> Surface {
+    let columns = appearance.count(12.0);
     let rows = (columns * 5 + 2) / 4;
-    let seed = look.seed;
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let sway = 0.10 / columns as f32;
         let x = (u + sway * gradient(u, v, 4, rows, seed)) * columns as f32;
@@ -155,7 +163,7 @@ pub(super) fn knit(look: &Appearance, size: usize) -> Surface {
             (0.92 + 0.12 * id + 0.12 * ply + 0.14 * fuzz) * lerp(0.35, 1.0, step(0.0, 0.55, round));
         Texel {
             height: (0.50 * round + 0.05 * ply * round + 0.04 * fuzz) / columns as f32,
-            color: lit(look.color(0), tone),
+            color: lit(appearance.color(0), tone),
             gloss: 0.0,
             glow: 0.0,
         }
@@ -163,9 +171,9 @@ pub(super) fn knit(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Raised cords with a pile.
-pub(super) fn corduroy(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(13.0);
-    let seed = look.seed;
+pub(super) fn corduroy(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(13.0);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let x = (u + 0.05 / n as f32 * gradient(u, v, n, 5, seed)) * n as f32;
         let f = 2.0 * fract(x) - 1.0;
@@ -175,7 +183,7 @@ pub(super) fn corduroy(look: &Appearance, size: usize) -> Surface {
         let tone = 0.42 + 0.55 * cord + 0.16 * pile + 0.14 * tuft;
         Texel {
             height: (0.42 * cord + 0.05 * pile + 0.04 * tuft) / n as f32,
-            color: lit(look.color(0), tone),
+            color: lit(appearance.color(0), tone),
             gloss: 0.0,
             glow: 0.0,
         }
@@ -191,10 +199,10 @@ fn fold(u: f32, v: f32, n: f32, seed: u32) -> f32 {
 }
 
 /// A lustrous cloth in soft folds.
-pub(super) fn silk(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(3.0) as f32;
-    let seed = look.seed;
-    let shine = look.shine(0.75);
+pub(super) fn silk(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(3.0) as f32;
+    let seed = appearance.seed;
+    let shine = appearance.shine(0.75);
     Surface::of(size, |u, v| {
         let h = fold(u, v, n, seed);
         let ahead = fold(u + 0.012, v + 0.006, n, seed);
@@ -205,7 +213,7 @@ pub(super) fn silk(look: &Appearance, size: usize) -> Surface {
         let thread = gradient(u, v, 12, 180, seed + 3);
         Texel {
             height: 0.034 * h,
-            color: lit(look.color(0), 0.86 + 0.03 * thread - 0.32 * back),
+            color: lit(appearance.color(0), 0.86 + 0.03 * thread - 0.32 * back),
             gloss: 0.5 * shine,
             glow: 0.72 * shine * band * (0.9 + 0.1 * thread),
         }
@@ -213,9 +221,9 @@ pub(super) fn silk(look: &Appearance, size: usize) -> Surface {
 }
 
 /// A short dense pile in folds: bright where it is seen from the side, dark from above.
-pub(super) fn velvet(look: &Appearance, size: usize) -> Surface {
-    let seed = look.seed;
-    let n = look.count(3.0) as f32;
+pub(super) fn velvet(appearance: &Appearance, size: usize) -> Surface {
+    let seed = appearance.seed;
+    let n = appearance.count(3.0) as f32;
     Surface::of(size, |u, v| {
         let crush = 0.5 * octaves(u, v, 5, 5, 3, seed + 5);
         let h = fold(u, v, n, seed) + 0.55 * crush;
@@ -226,7 +234,11 @@ pub(super) fn velvet(look: &Appearance, size: usize) -> Surface {
         let steep = (dx * dx + dy * dy).sqrt();
         let rim = step(0.55, 2.0, steep) * 0.75 + 0.45 * step(0.25, 0.7, crush.abs());
         let pile = octaves(u, v, 90, 90, 2, seed + 1);
-        let color = mix(lit(look.color(0), 0.75), look.color(1), rim + 0.12 * pile);
+        let color = mix(
+            lit(appearance.color(0), 0.75),
+            appearance.color(1),
+            rim + 0.12 * pile,
+        );
         Texel {
             height: 0.020 * h + 0.0012 * pile,
             color: lit(color, 1.0 + 0.28 * pile),
@@ -237,9 +249,9 @@ pub(super) fn velvet(look: &Appearance, size: usize) -> Surface {
 }
 
 /// A smooth thin cloth with a faint weave, lying flat with shallow creases.
-pub(super) fn sheet(look: &Appearance, size: usize) -> Surface {
-    let n = look.even(84.0);
-    let seed = look.seed;
+pub(super) fn sheet(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.even(84.0);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let h = fold(u, v, 2.0, seed);
         let (x, y) = (wave(u * n as f32), wave(v * n as f32));
@@ -247,19 +259,19 @@ pub(super) fn sheet(look: &Appearance, size: usize) -> Surface {
         Texel {
             height: 0.020 * h + 0.10 * mesh / n as f32,
             color: lit(
-                look.color(0),
+                appearance.color(0),
                 0.92 + 0.10 * mesh + 0.05 * octaves(u, v, 30, 30, 2, seed),
             ),
-            gloss: look.shine(0.1),
+            gloss: appearance.shine(0.1),
             glow: 0.0,
         }
     })
 }
 
 /// An open net of thread over a ground.
-pub(super) fn net(look: &Appearance, size: usize) -> Surface {
-    let n = look.even(12.0);
-    let seed = look.seed;
+pub(super) fn net(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.even(12.0);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let s = 0.05 / n as f32;
         let (a, b) = (
@@ -276,18 +288,22 @@ pub(super) fn net(look: &Appearance, size: usize) -> Surface {
         let there = step(0.05, 0.3, up);
         Texel {
             height: (0.30 * up + 0.02 * twist) / n as f32,
-            color: mix(look.color(1), lit(look.color(0), 0.8 + 0.25 * twist), there),
-            gloss: look.shine(0.05) * there,
+            color: mix(
+                appearance.color(1),
+                lit(appearance.color(0), 0.8 + 0.25 * twist),
+                there,
+            ),
+            gloss: appearance.shine(0.05) * there,
             glow: 0.0,
         }
     })
 }
 
 /// Flowers of thread on a fine net.
-pub(super) fn lace(look: &Appearance, size: usize) -> Surface {
-    let n = look.even(6.0);
+pub(super) fn lace(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.even(6.0);
     Surface::of(size, |u, v| {
-        let c = cell(u, v, n, n, 0.0, look.seed);
+        let c = cell(u, v, n, n, 0.0, appearance.seed);
         let angle = libm::atan2f(c.way.1, c.way.0) / core::f32::consts::TAU;
         let petal = 0.30 + 0.10 * wave(6.0 * angle);
         let flower = step(petal + 0.02, petal - 0.02, c.near) * step(0.05, 0.07, c.near);
@@ -304,7 +320,11 @@ pub(super) fn lace(look: &Appearance, size: usize) -> Surface {
             .max(edge);
         Texel {
             height: 0.010 * there,
-            color: mix(look.color(1), lit(look.color(0), 0.95 + 0.08 * wire), there),
+            color: mix(
+                appearance.color(1),
+                lit(appearance.color(0), 0.95 + 0.08 * wire),
+                there,
+            ),
             gloss: 0.0,
             glow: 0.0,
         }
@@ -312,10 +332,10 @@ pub(super) fn lace(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Flat strips over and under each other: carbon fibre, webbing, straw mats, wicker.
-pub(super) fn basket(look: &Appearance, size: usize) -> Surface {
-    let n = look.multiple(12.0, 4);
-    let seed = look.seed;
-    let shine = look.shine(0.1);
+pub(super) fn basket(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.multiple(12.0, 4);
+    let seed = appearance.seed;
+    let shine = appearance.shine(0.1);
     Surface::of(size, |u, v| {
         let (x, y) = (u * n as f32, v * n as f32);
         let (i, j) = (floor(x), floor(y));
@@ -343,7 +363,7 @@ pub(super) fn basket(look: &Appearance, size: usize) -> Surface {
         let tone = (0.8 + 0.3 * id + 0.20 * fibre) * lerp(0.25, 1.0, edge) * (0.7 + 0.3 * bow);
         Texel {
             height: (0.30 * bow * dome(across * 0.9) + 0.03 * fibre) * edge / n as f32,
-            color: lit(look.color(part), tone),
+            color: lit(appearance.color(part), tone),
             gloss: shine * edge * 0.6,
             glow: if twill {
                 0.10 * flash * edge * (1.0 + 0.6 * fibre)
@@ -355,10 +375,10 @@ pub(super) fn basket(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Twisted strands side by side: rope, cord, cable, yarn.
-pub(super) fn rope(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(4.0);
-    let seed = look.seed;
-    let shine = look.shine(0.0);
+pub(super) fn rope(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(4.0);
+    let seed = appearance.seed;
+    let shine = appearance.shine(0.0);
     Surface::of(size, |u, v| {
         let x = u * n as f32;
         let side = 2.0 * fract(x) - 1.0;
@@ -375,7 +395,11 @@ pub(super) fn rope(look: &Appearance, size: usize) -> Surface {
         Texel {
             height: (0.42 * body + 0.20 * strand * body + 0.012 * (yarn + fibre)) / n as f32,
             color: lit(
-                mix(look.color(0), look.color(1), 0.5 * (1.0 + fibre) * 0.6),
+                mix(
+                    appearance.color(0),
+                    appearance.color(1),
+                    0.5 * (1.0 + fibre) * 0.6,
+                ),
                 (0.85 + 0.10 * yarn + 0.12 * fibre) * lerp(0.28, 1.0, gap),
             ),
             gloss: shine,

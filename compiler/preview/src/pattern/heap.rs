@@ -21,93 +21,93 @@ struct Thing {
 }
 
 /// Long grains: rice, oats, needles.
-pub(super) fn grains(look: &Appearance, size: usize) -> Surface {
+pub(super) fn grains(appearance: &Appearance, size: usize) -> Surface {
     heap(
-        look,
+        appearance,
         size,
-        look.count(13.0),
+        appearance.count(13.0),
         &Thing {
             slender: 0.30,
             tall: 0.5,
             groove: 0.0,
-            gloss: look.shine(0.35),
+            gloss: appearance.shine(0.35),
             corners: 2,
         },
     )
 }
 
 /// Flat round grains: lentils, coins, confetti.
-pub(super) fn discs(look: &Appearance, size: usize) -> Surface {
+pub(super) fn discs(appearance: &Appearance, size: usize) -> Surface {
     heap(
-        look,
+        appearance,
         size,
-        look.count(12.0),
+        appearance.count(12.0),
         &Thing {
             slender: 0.95,
             tall: 0.28,
             groove: 0.0,
-            gloss: look.shine(0.3),
+            gloss: appearance.shine(0.3),
             corners: 2,
         },
     )
 }
 
 /// Beans with a groove: coffee.
-pub(super) fn beans(look: &Appearance, size: usize) -> Surface {
+pub(super) fn beans(appearance: &Appearance, size: usize) -> Surface {
     heap(
-        look,
+        appearance,
         size,
-        look.count(8.0),
+        appearance.count(8.0),
         &Thing {
             slender: 0.68,
             tall: 0.42,
             groove: 0.55,
-            gloss: look.shine(0.45),
+            gloss: appearance.shine(0.45),
             corners: 2,
         },
     )
 }
 
 /// Balls: glass beads, peas.
-pub(super) fn balls(look: &Appearance, size: usize) -> Surface {
+pub(super) fn balls(appearance: &Appearance, size: usize) -> Surface {
     heap(
-        look,
+        appearance,
         size,
-        look.count(11.0),
+        appearance.count(11.0),
         &Thing {
             slender: 1.0,
             tall: 0.5,
             groove: 0.0,
-            gloss: look.shine(0.9),
+            gloss: appearance.shine(0.9),
             corners: 2,
         },
     )
 }
 
 /// Cubes: sugar, salt.
-pub(super) fn crystals(look: &Appearance, size: usize) -> Surface {
+pub(super) fn crystals(appearance: &Appearance, size: usize) -> Surface {
     heap(
-        look,
+        appearance,
         size,
-        look.count(26.0),
+        appearance.count(26.0),
         &Thing {
             slender: 0.85,
             tall: 0.5,
             groove: 0.0,
-            gloss: look.shine(0.6),
+            gloss: appearance.shine(0.6),
             corners: 8,
         },
     )
 }
 
-fn heap(look: &Appearance, size: usize, n: i32, thing: &Thing) -> Surface {
+fn heap(appearance: &Appearance, size: usize, n: i32, thing: &Thing) -> Surface {
     let mut surface = Surface::of(size, |_, _| Texel {
         height: 0.0,
-        color: lit(look.color(0), 0.18),
+        color: lit(appearance.color(0), 0.18),
         gloss: 0.0,
         glow: 0.0,
     });
-    let mut chance = Sequence::new(look.seed);
+    let mut chance = Sequence::new(appearance.seed);
     let length = 0.62 / n as f32;
     let count = (2.6 * (n * n) as f32 / thing.slender.max(0.4)) as usize;
     for k in 0..count {
@@ -115,7 +115,7 @@ fn heap(look: &Appearance, size: usize, n: i32, thing: &Thing) -> Surface {
         let turn = chance.next();
         let scale = 0.85 + 0.3 * chance.next();
         let (long, wide) = (length * scale, length * scale * thing.slender);
-        let color = lit(look.any(chance.next()), 0.78 + 0.4 * chance.next());
+        let color = lit(appearance.any(chance.next()), 0.78 + 0.4 * chance.next());
         let (c, s) = (wave(turn + 0.25), wave(turn));
         let level = 1.4 * wide * k as f32 / count as f32;
         let tilt = 0.35 * chance.signed();

@@ -8,10 +8,10 @@ use crate::{
 };
 
 /// Tanned hide: small rounded pebbles between fine creases, and a few long ones.
-pub(super) fn leather(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(30.0);
-    let seed = look.seed;
-    let shine = look.shine(0.4);
+pub(super) fn leather(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(30.0);
+    let seed = appearance.seed;
+    let shine = appearance.shine(0.4);
     Surface::of(size, |u, v| {
         let w = 0.018;
         let (a, b) = (
@@ -38,7 +38,10 @@ pub(super) fn leather(look: &Appearance, size: usize) -> Surface {
         Texel {
             height: (0.17 * pebble * (0.8 + 0.4 * nth(c.id, 1)) + 0.03 * small - 0.22 * line)
                 / n as f32,
-            color: lit(mix(look.color(1), look.color(0), 0.45 + 0.55 * top), tone),
+            color: lit(
+                mix(appearance.color(1), appearance.color(0), 0.45 + 0.55 * top),
+                tone,
+            ),
             gloss: shine * top,
             glow: 0.0,
         }
@@ -46,15 +49,15 @@ pub(super) fn leather(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Napped hide: soft, with strokes of a hand in it.
-pub(super) fn suede(look: &Appearance, size: usize) -> Surface {
-    let seed = look.seed;
+pub(super) fn suede(appearance: &Appearance, size: usize) -> Surface {
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let w = 0.08 * octaves(u, v, 3, 3, 2, seed);
         let swipe = step(-0.12, 0.12, octaves(u + w, v - w, 3, 4, 2, seed + 1));
         let nap = octaves(u, v, 60, 90, 3, seed + 2);
         Texel {
             height: 0.0018 * nap,
-            color: lit(look.color(0), 0.80 + 0.22 * swipe + 0.24 * nap),
+            color: lit(appearance.color(0), 0.80 + 0.22 * swipe + 0.24 * nap),
             gloss: 0.0,
             glow: 0.0,
         }
@@ -62,9 +65,9 @@ pub(super) fn suede(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Living skin: a net of fine lines, pores.
-pub(super) fn skin(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(26.0);
-    let seed = look.seed;
+pub(super) fn skin(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(26.0);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let w = 0.02 * octaves(u, v, 5, 5, 2, seed);
         let c = cell(u + w, v - w, n, n, 0.85, seed + 1);
@@ -76,19 +79,19 @@ pub(super) fn skin(look: &Appearance, size: usize) -> Surface {
             height: (0.10 * dome(c.near * 1.2) - 0.10 * line - 0.10 * pore + 0.02 * fine)
                 / n as f32,
             color: lit(
-                mix(look.color(0), look.color(1), 0.45 + 0.6 * flush),
+                mix(appearance.color(0), appearance.color(1), 0.45 + 0.6 * flush),
                 1.0 - 0.10 * line - 0.18 * pore + 0.05 * fine,
             ),
-            gloss: look.shine(0.2),
+            gloss: appearance.shine(0.2),
             glow: 0.0,
         }
     })
 }
 
 /// The whorls of a palm.
-pub(super) fn whorls(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(24.0);
-    let seed = look.seed;
+pub(super) fn whorls(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(24.0);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let bend = 0.30 * octaves(u, v, 2, 2, 2, seed);
         let t = fract((v + bend) * n as f32 * 0.999_9);
@@ -98,20 +101,24 @@ pub(super) fn whorls(look: &Appearance, size: usize) -> Surface {
         Texel {
             height: (0.14 * ridge) / n as f32 - 0.010 * fold,
             color: lit(
-                mix(look.color(1), look.color(0), 0.35 + 0.65 * ridge),
+                mix(
+                    appearance.color(1),
+                    appearance.color(0),
+                    0.35 + 0.65 * ridge,
+                ),
                 1.0 - 0.25 * fold + 0.06 * octaves(u, v, 3, 3, 2, seed + 4),
             ),
-            gloss: look.shine(0.15),
+            gloss: appearance.shine(0.15),
             glow: 0.0,
         }
     })
 }
 
 /// Rows of scales, each over the next: snakes, fish, cones, roofs.
-pub(super) fn scales(look: &Appearance, size: usize) -> Surface {
-    let n = look.even(10.0);
-    let seed = look.seed;
-    let shine = look.shine(0.4);
+pub(super) fn scales(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.even(10.0);
+    let seed = appearance.seed;
+    let shine = appearance.shine(0.4);
     Surface::of(size, |u, v| {
         let rows = n as f32;
         let mut found = (0.0, 0u32, 0.0, 0.0);
@@ -139,7 +146,7 @@ pub(super) fn scales(look: &Appearance, size: usize) -> Surface {
         let tone = (0.70 + 0.5 * nth(id, 1)) * lerp(0.35, 1.0, edge) * (1.08 - 0.22 * rim);
         Texel {
             height: (0.30 * (1.0 - 0.45 * rim.min(1.5)) * edge + 0.04 * keel) / n as f32,
-            color: lit(look.any(nth(id, 2)), tone),
+            color: lit(appearance.any(nth(id, 2)), tone),
             gloss: shine * edge,
             glow: 0.22
                 * shine
@@ -151,10 +158,10 @@ pub(super) fn scales(look: &Appearance, size: usize) -> Surface {
 }
 
 /// A leaf: a middle rib, side ribs, a net between.
-pub(super) fn leaf(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(6.0);
-    let seed = look.seed;
-    let shine = look.shine(0.35);
+pub(super) fn leaf(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(6.0);
+    let seed = appearance.seed;
+    let shine = appearance.shine(0.35);
     Surface::of(size, |u, v| {
         let side = (u - 0.5).abs();
         let t = fract(v * n as f32 + side * 3.2 + 0.10 * gradient(u, v, 4, 4, seed));
@@ -166,8 +173,8 @@ pub(super) fn leaf(look: &Appearance, size: usize) -> Surface {
         let mesh = step(0.08, 0.0, net.edge);
         let bulge = dome((1.0 - 2.0 * far).clamp(0.0, 1.0) - 0.2);
         let color = mix(
-            look.color(0),
-            look.color(1),
+            appearance.color(0),
+            appearance.color(1),
             (0.9 * middle).max(0.75 * rib).max(0.30 * mesh),
         );
         Texel {
@@ -183,9 +190,9 @@ pub(super) fn leaf(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Vanes of a feather: fine barbs that slant from quills.
-pub(super) fn feather(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(3.0);
-    let seed = look.seed;
+pub(super) fn feather(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(3.0);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let x = u * n as f32;
         let id = floor(x).rem_euclid(n);
@@ -207,7 +214,11 @@ pub(super) fn feather(look: &Appearance, size: usize) -> Surface {
         let quill = step(0.055, 0.02, s);
         let vane = step(1.0, 0.85, s + 0.25 * split);
         let bands = 0.5 + 0.5 * wave(3.0 * (v + 0.22 * s) + 0.2 * unit(hash(id, 2, seed)));
-        let color = mix(look.color(0), look.color(1), 0.55 * step(0.45, 0.8, bands));
+        let color = mix(
+            appearance.color(0),
+            appearance.color(1),
+            0.55 * step(0.45, 0.8, bands),
+        );
         Texel {
             height: (0.10 * (1.0 - s) + 0.008 * barb + 0.05 * quill - 0.02 * split) / n as f32
                 * 0.5,
@@ -217,7 +228,7 @@ pub(super) fn feather(look: &Appearance, size: usize) -> Surface {
                         color,
                         (0.8 + 0.25 * barb) * lerp(0.45, 1.0, vane) * (1.0 - 0.4 * split),
                     ),
-                    look.color(2),
+                    appearance.color(2),
                     quill,
                 ),
                 1.0,
@@ -229,10 +240,10 @@ pub(super) fn feather(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Low warts or quill bumps on a skin.
-pub(super) fn bumps(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(11.0);
-    let seed = look.seed;
-    let shine = look.shine(0.3);
+pub(super) fn bumps(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(11.0);
+    let seed = appearance.seed;
+    let shine = appearance.shine(0.3);
     Surface::of(size, |u, v| {
         let c = cell(u, v, n, n, 0.7, seed);
         let radius = 0.20 + 0.18 * nth(c.id, 1);
@@ -242,7 +253,11 @@ pub(super) fn bumps(look: &Appearance, size: usize) -> Surface {
         Texel {
             height: (0.22 * bump + 0.02 * net) / n as f32,
             color: lit(
-                mix(look.color(0), look.color(1), 0.8 * step(0.2, 1.0, bump)),
+                mix(
+                    appearance.color(0),
+                    appearance.color(1),
+                    0.8 * step(0.2, 1.0, bump),
+                ),
                 (0.86 + 0.14 * net) * (1.0 + 0.10 * octaves(u, v, 4, 4, 2, seed + 2)),
             ),
             gloss: shine,

@@ -8,10 +8,10 @@ use crate::{
 };
 
 /// Wires woven over and under each other with open holes.
-pub(super) fn mesh(look: &Appearance, size: usize) -> Surface {
-    let n = look.even(12.0);
-    let shine = look.shine(0.6);
-    let seed = look.seed;
+pub(super) fn mesh(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.even(12.0);
+    let shine = appearance.shine(0.6);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let (x, y) = (u * n as f32, v * n as f32);
         let (i, j) = (floor(x), floor(y));
@@ -46,7 +46,11 @@ pub(super) fn mesh(look: &Appearance, size: usize) -> Surface {
             } else {
                 -0.25 / n as f32
             },
-            color: mix(look.color(1), lit(look.color(0), tone + 0.05 * fine), there),
+            color: mix(
+                appearance.color(1),
+                lit(appearance.color(0), tone + 0.05 * fine),
+                there,
+            ),
             gloss: shine * there,
             glow: 0.45 * shine * step(0.24, 0.05, (across / radius + 0.32).abs()) * there,
         }
@@ -54,23 +58,23 @@ pub(super) fn mesh(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Round holes in a sheet, in a triangular order.
-pub(super) fn holes(look: &Appearance, size: usize) -> Surface {
-    let n = look.even(10.0);
+pub(super) fn holes(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.even(10.0);
     let rows = ((n * 8 + 3) / 7).max(2) / 2 * 2;
-    let seed = look.seed;
-    let shine = look.shine(0.5);
+    let seed = appearance.seed;
+    let shine = appearance.shine(0.5);
     Surface::of(size, |u, v| {
         let d = triangular(u, v, n, rows);
         let hole = step(0.34, 0.30, d);
         let rim = step(0.30, 0.36, d) * step(0.46, 0.38, d);
         let brush = octaves(u, v, 4, 120, 2, seed);
         let sheet = lit(
-            look.color(0),
+            appearance.color(0),
             0.80 + 0.14 * brush + 0.12 * wave(u + v + unit(seed)),
         );
         Texel {
             height: (-0.30 * hole + 0.06 * rim) / n as f32 * 2.0,
-            color: mix(sheet, look.color(1), hole),
+            color: mix(sheet, appearance.color(1), hole),
             gloss: shine * (1.0 - hole),
             glow: 0.12 * rim * shine,
         }
@@ -92,10 +96,10 @@ fn triangular(u: f32, v: f32, n: i32, rows: i32) -> f32 {
 }
 
 /// Wire in six-sided holes, or walls of a comb.
-pub(super) fn hexagons(look: &Appearance, size: usize) -> Surface {
-    let n = look.even(8.0);
+pub(super) fn hexagons(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.even(8.0);
     let rows = ((n * 8 + 3) / 7).max(2) / 2 * 2;
-    let shine = look.shine(0.3);
+    let shine = appearance.shine(0.3);
     Surface::of(size, |u, v| {
         // The distance to the border of the nearest point's cell.
         let aspect = n as f32 / rows as f32;
@@ -122,8 +126,8 @@ pub(super) fn hexagons(look: &Appearance, size: usize) -> Surface {
         Texel {
             height: (0.28 * wall + 0.2 * depth) / n as f32,
             color: mix(
-                lit(look.color(1), 0.6 + 0.5 * depth),
-                lit(look.color(0), 0.55 + 0.5 * wall),
+                lit(appearance.color(1), 0.6 + 0.5 * depth),
+                lit(appearance.color(0), 0.55 + 0.5 * wall),
                 there,
             ),
             gloss: shine * there,
@@ -133,9 +137,9 @@ pub(super) fn hexagons(look: &Appearance, size: usize) -> Surface {
 }
 
 /// A sheet slit and pulled: long lozenges.
-pub(super) fn lozenges(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(7.0);
-    let shine = look.shine(0.4);
+pub(super) fn lozenges(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(7.0);
+    let shine = appearance.shine(0.4);
     Surface::of(size, |u, v| {
         let (x, y) = (u * n as f32, v * (2 * n) as f32);
         let (a, b) = (fract(x + 0.5 * y), fract(0.5 * y - x));
@@ -149,8 +153,8 @@ pub(super) fn lozenges(look: &Appearance, size: usize) -> Surface {
         Texel {
             height: 0.22 * strand * (0.7 + 0.3 * wave(slope)) / n as f32,
             color: mix(
-                look.color(1),
-                lit(look.color(0), 0.85 + 0.2 * wave(slope + 0.1)),
+                appearance.color(1),
+                lit(appearance.color(0), 0.85 + 0.2 * wave(slope + 0.1)),
                 strand,
             ),
             gloss: shine * strand,
@@ -160,12 +164,12 @@ pub(super) fn lozenges(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Rings through each other.
-pub(super) fn rings(look: &Appearance, size: usize) -> Surface {
-    let n = look.even(8.0);
-    let shine = look.shine(0.7);
+pub(super) fn rings(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.even(8.0);
+    let shine = appearance.shine(0.7);
     let mut surface = Surface::of(size, |_, _| Texel {
         height: -0.4 / n as f32,
-        color: look.color(1),
+        color: appearance.color(1),
         gloss: 0.0,
         glow: 0.0,
     });
@@ -176,7 +180,7 @@ pub(super) fn rings(look: &Appearance, size: usize) -> Surface {
             let (u, v) = ((column as f32 + 0.5) * pitch, (row as f32 + 0.5) * pitch);
             // Rows lean in turn, so that rings pass through their neighbours.
             let lean = if row & 1 == 0 { 1.0 } else { -1.0 };
-            let tone = 0.8 + 0.3 * unit(hash(column, row, look.seed));
+            let tone = 0.8 + 0.3 * unit(hash(column, row, appearance.seed));
             surface.stamp((u, v), radius + wire, |dx, dy| {
                 let dx = dx / 0.92;
                 let d = (dx * dx + dy * dy).sqrt();
@@ -185,7 +189,7 @@ pub(super) fn rings(look: &Appearance, size: usize) -> Surface {
                     let round = dome(t);
                     Texel {
                         height: 0.8 * wire * round + 0.5 * lean * dx,
-                        color: lit(look.color(0), tone * (0.35 + 0.7 * round)),
+                        color: lit(appearance.color(0), tone * (0.35 + 0.7 * round)),
                         gloss: shine,
                         glow: 0.5 * shine * step(0.4, 0.0, (t + 0.3).abs()),
                     }
@@ -197,10 +201,10 @@ pub(super) fn rings(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Round studs with flat tops.
-pub(super) fn studs(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(7.0);
-    let shine = look.shine(0.2);
-    let seed = look.seed;
+pub(super) fn studs(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(7.0);
+    let shine = appearance.shine(0.2);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let (a, b) = (
             2.0 * fract(u * n as f32) - 1.0,
@@ -215,7 +219,7 @@ pub(super) fn studs(look: &Appearance, size: usize) -> Surface {
         Texel {
             height: 0.16 * stud / n as f32 + 0.0006 * fine,
             color: lit(
-                look.color(0),
+                appearance.color(0),
                 0.9 + 0.12 * stud - 0.25 * (skirt - stud).max(0.0) + 0.10 * fine,
             ),
             gloss: shine,
@@ -225,10 +229,10 @@ pub(super) fn studs(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Round domes: bubbles, beads, pearls.
-pub(super) fn domes(look: &Appearance, size: usize) -> Surface {
-    let n = look.even(8.0);
+pub(super) fn domes(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.even(8.0);
     let rows = ((n * 8 + 3) / 7).max(2) / 2 * 2;
-    let shine = look.shine(0.9);
+    let shine = appearance.shine(0.9);
     Surface::of(size, |u, v| {
         let d = triangular(u, v, n, rows) / 0.46;
         let dome_height = dome(d.min(1.0));
@@ -241,8 +245,8 @@ pub(super) fn domes(look: &Appearance, size: usize) -> Surface {
         Texel {
             height: 0.36 * dome_height / n as f32,
             color: mix(
-                look.color(1),
-                lit(look.color(0), 0.78 + 0.3 * dome_height - 0.16 * rim),
+                appearance.color(1),
+                lit(appearance.color(0), 0.78 + 0.3 * dome_height - 0.16 * rim),
                 step(1.03, 0.97, d),
             ),
             gloss: shine,
@@ -252,35 +256,35 @@ pub(super) fn domes(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Shallow round hollows in a triangular order, as on golf balls and orange skins.
-pub(super) fn dimples(look: &Appearance, size: usize) -> Surface {
-    let n = look.even(8.0);
+pub(super) fn dimples(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.even(8.0);
     let rows = ((n * 8 + 3) / 7).max(2) / 2 * 2;
     Surface::of(size, |u, v| {
         let d = triangular(u, v, n, rows) / 0.42;
         let bowl = if d < 1.0 { dome(d) } else { 0.0 };
         Texel {
             height: -0.17 * bowl / n as f32,
-            color: lit(look.color(0), 1.0 - 0.06 * bowl),
-            gloss: look.shine(0.5),
+            color: lit(appearance.color(0), 1.0 - 0.06 * bowl),
+            gloss: appearance.shine(0.5),
             glow: 0.0,
         }
     })
 }
 
 /// Raised blocks with sloping sides: chocolate, waffles (where the blocks are hollows), keys.
-pub(super) fn blocks(look: &Appearance, size: usize) -> Surface {
-    panels(look, size, 1.0)
+pub(super) fn blocks(appearance: &Appearance, size: usize) -> Surface {
+    panels(appearance, size, 1.0)
 }
 
 /// Hollow squares between ridges.
-pub(super) fn pits(look: &Appearance, size: usize) -> Surface {
-    panels(look, size, -1.0)
+pub(super) fn pits(appearance: &Appearance, size: usize) -> Surface {
+    panels(appearance, size, -1.0)
 }
 
-fn panels(look: &Appearance, size: usize, sign: f32) -> Surface {
-    let n = look.count(5.0);
-    let seed = look.seed;
-    let shine = look.shine(0.4);
+fn panels(appearance: &Appearance, size: usize, sign: f32) -> Surface {
+    let n = appearance.count(5.0);
+    let seed = appearance.seed;
+    let shine = appearance.shine(0.4);
     Surface::of(size, |u, v| {
         let (a, b) = (
             (2.0 * fract(u * n as f32) - 1.0).abs(),
@@ -293,7 +297,7 @@ fn panels(look: &Appearance, size: usize, sign: f32) -> Surface {
         Texel {
             height: sign * 0.20 * block / n as f32 + 0.003 * (1.0 - shine) * rough,
             color: lit(
-                mix(look.color(0), look.color(1), low),
+                mix(appearance.color(0), appearance.color(1), low),
                 (1.0 + 0.18 * (1.0 - shine) * rough) * lerp(1.0, 0.82, low),
             ),
             gloss: shine,
@@ -303,9 +307,9 @@ fn panels(look: &Appearance, size: usize, sign: f32) -> Surface {
 }
 
 /// A tread of blocks and grooves.
-pub(super) fn tread(look: &Appearance, size: usize) -> Surface {
-    let n = look.even(6.0);
-    let seed = look.seed;
+pub(super) fn tread(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.even(6.0);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let fold = (2.0 * fract(u * (n / 2) as f32) - 1.0).abs();
         let (x, y) = (u * n as f32, v * n as f32 + 0.9 * fold);
@@ -318,27 +322,27 @@ pub(super) fn tread(look: &Appearance, size: usize) -> Surface {
         Texel {
             height: (0.26 * block + 0.06 * sipe * block) / n as f32 + 0.0007 * fine,
             color: lit(
-                look.color(0),
+                appearance.color(0),
                 (0.35 + 0.65 * block) * (0.75 + 0.25 * sipe) * (1.0 + 0.15 * fine),
             ),
-            gloss: look.shine(0.15),
+            gloss: appearance.shine(0.15),
             glow: 0.0,
         }
     })
 }
 
 /// Grains that mirror, each its own way: glitter, anti-slip tape.
-pub(super) fn glitter(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(70.0);
+pub(super) fn glitter(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(70.0);
     Surface::of(size, |u, v| {
-        let c = cell(u, v, n, n, 1.0, look.seed);
+        let c = cell(u, v, n, n, 1.0, appearance.seed);
         let bright = unit(hash(c.id as i32, 1, 2));
         let hue = unit(hash(c.id as i32, 2, 2));
         let facet = step(0.0, 0.08, c.edge);
         Texel {
             height: 0.2 * facet * bright / n as f32,
             color: lit(
-                look.any(hue),
+                appearance.any(hue),
                 (0.25 + 1.2 * bright * bright) * lerp(0.5, 1.0, facet),
             ),
             gloss: 0.0,

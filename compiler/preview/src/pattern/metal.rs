@@ -13,9 +13,9 @@ fn room(t: f32, seed: u32) -> f32 {
 }
 
 /// Fine scratches in one way.
-pub(super) fn brushed(look: &Appearance, size: usize) -> Surface {
-    let seed = look.seed;
-    let fine = look.count(150.0);
+pub(super) fn brushed(appearance: &Appearance, size: usize) -> Surface {
+    let seed = appearance.seed;
+    let fine = appearance.count(150.0);
     Surface::of(size, |u, v| {
         let scratch = 0.5 * gradient(u, v, 2, fine, seed)
             + 0.35 * gradient(u, v, 5, fine * 2, seed + 1)
@@ -25,7 +25,7 @@ pub(super) fn brushed(look: &Appearance, size: usize) -> Surface {
         Texel {
             height: 0.0006 * scratch,
             color: lit(
-                look.color(0),
+                appearance.color(0),
                 0.62 + 0.34 * scratch + 0.52 * light - 0.12 * nick,
             ),
             gloss: 0.0,
@@ -35,8 +35,8 @@ pub(super) fn brushed(look: &Appearance, size: usize) -> Surface {
 }
 
 /// A mirror that shows a dim room.
-pub(super) fn polished(look: &Appearance, size: usize) -> Surface {
-    let seed = look.seed;
+pub(super) fn polished(appearance: &Appearance, size: usize) -> Surface {
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let w = 0.10 * octaves(u, v, 2, 2, 2, seed);
         let t = u + v + w;
@@ -46,7 +46,7 @@ pub(super) fn polished(look: &Appearance, size: usize) -> Surface {
         Texel {
             height: 0.0,
             color: lit(
-                look.color(0),
+                appearance.color(0),
                 0.45 + 0.75 * sky - 0.25 * floor_line + 0.05 * scratch,
             ),
             gloss: 0.3,
@@ -56,9 +56,9 @@ pub(super) fn polished(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Round dents side by side.
-pub(super) fn hammered(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(9.0);
-    let seed = look.seed;
+pub(super) fn hammered(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(9.0);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let c = cell(u, v, n, n, 0.75, seed);
         let bowl = (c.near * c.near).min(0.6);
@@ -71,19 +71,19 @@ pub(super) fn hammered(look: &Appearance, size: usize) -> Surface {
         Texel {
             height: 0.50 * bowl / n as f32,
             color: lit(
-                look.color(0),
+                appearance.color(0),
                 (0.85 - 0.35 * dark + 0.06 * fine) * lerp(0.8, 1.0, rim),
             ),
-            gloss: look.shine(0.6),
+            gloss: appearance.shine(0.6),
             glow: 0.5 * flash,
         }
     })
 }
 
 /// Raised lozenges, every other one turned.
-pub(super) fn lugs(look: &Appearance, size: usize) -> Surface {
-    let n = look.even(8.0);
-    let seed = look.seed;
+pub(super) fn lugs(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.even(8.0);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let (x, y) = (u * n as f32, v * n as f32);
         let (i, j) = (floor(x), floor(y));
@@ -101,16 +101,16 @@ pub(super) fn lugs(look: &Appearance, size: usize) -> Surface {
         let wear = step(0.7, 1.0, lug);
         Texel {
             height: 0.16 * lug / n as f32 + 0.0006 * grind,
-            color: lit(look.color(0), 0.78 + 0.12 * grind + 0.3 * wear),
-            gloss: look.shine(0.5),
+            color: lit(appearance.color(0), 0.78 + 0.12 * grind + 0.3 * wear),
+            gloss: appearance.shine(0.5),
             glow: 0.08 * wear + 0.06 * room(u + v, seed),
         }
     })
 }
 
 /// Small pyramids between crossing grooves.
-pub(super) fn knurl(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(14.0);
+pub(super) fn knurl(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(14.0);
     Surface::of(size, |u, v| {
         let (x, y) = ((u + v) * n as f32, (u - v) * n as f32);
         let (a, b) = ((2.0 * fract(x) - 1.0).abs(), (2.0 * fract(y) - 1.0).abs());
@@ -118,29 +118,36 @@ pub(super) fn knurl(look: &Appearance, size: usize) -> Surface {
         let flat = top.min(0.75);
         Texel {
             height: 0.55 * flat / n as f32,
-            color: lit(look.color(0), 0.55 + 0.6 * flat),
-            gloss: look.shine(0.6),
+            color: lit(appearance.color(0), 0.55 + 0.6 * flat),
+            gloss: appearance.shine(0.6),
             glow: 0.35 * step(0.70, 0.75, top),
         }
     })
 }
 
 /// Rust that eats into a sheet.
-pub(super) fn rust(look: &Appearance, size: usize) -> Surface {
-    let seed = look.seed;
-    let n = look.count(4.0);
+pub(super) fn rust(appearance: &Appearance, size: usize) -> Surface {
+    let seed = appearance.seed;
+    let n = appearance.count(4.0);
     Surface::of(size, |u, v| {
         let w = 0.05 * octaves(u, v, 6, 6, 3, seed + 7);
         let patch = octaves(u + w, v - w, n, n, 5, seed);
         let flake = octaves(u, v, 26, 26, 4, seed + 1);
         let deep = step(0.0, 0.35, patch + 0.25 * flake);
         let bare = step(-0.30, -0.46, patch + 0.2 * flake);
-        let orange = mix(look.color(0), look.color(1), 0.5 + 0.9 * flake);
-        let color = mix(orange, lit(look.color(2), 0.9 + 0.3 * flake), 0.85 * deep);
+        let orange = mix(appearance.color(0), appearance.color(1), 0.5 + 0.9 * flake);
+        let color = mix(
+            orange,
+            lit(appearance.color(2), 0.9 + 0.3 * flake),
+            0.85 * deep,
+        );
         let streak = 0.10 * gradient(u, v, 60, 4, seed + 2);
         Texel {
             height: 0.010 * flake - 0.012 * deep + 0.006 * bare,
-            color: lit(mix(color, look.color(3), bare), 0.95 + 0.2 * flake + streak),
+            color: lit(
+                mix(color, appearance.color(3), bare),
+                0.95 + 0.2 * flake + streak,
+            ),
             gloss: 0.0,
             glow: 0.0,
         }
@@ -148,9 +155,9 @@ pub(super) fn rust(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Cast or blasted metal: fine pits, dull shine.
-pub(super) fn cast(look: &Appearance, size: usize) -> Surface {
-    let seed = look.seed;
-    let n = look.count(70.0);
+pub(super) fn cast(appearance: &Appearance, size: usize) -> Surface {
+    let seed = appearance.seed;
+    let n = appearance.count(70.0);
     Surface::of(size, |u, v| {
         let pit = cell(u, v, n, n, 1.0, seed);
         let coarse = octaves(u, v, n / 3 + 1, n / 3 + 1, 3, seed + 1);
@@ -158,17 +165,17 @@ pub(super) fn cast(look: &Appearance, size: usize) -> Surface {
         Texel {
             height: (0.35 * step(0.0, 0.5, pit.near) * (0.4 + 0.6 * nth(pit.id, 1)) + 0.5 * coarse)
                 / n as f32,
-            color: lit(look.color(0), 0.9 + 0.16 * coarse + 0.12 * light),
-            gloss: look.shine(0.45),
+            color: lit(appearance.color(0), 0.9 + 0.16 * coarse + 0.12 * light),
+            gloss: appearance.shine(0.45),
             glow: 0.06 * light.max(0.0),
         }
     })
 }
 
 /// Crystals of zinc, each with its own sheen.
-pub(super) fn spangle(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(9.0);
-    let seed = look.seed;
+pub(super) fn spangle(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(9.0);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let w = 0.02 * octaves(u, v, 14, 14, 2, seed);
         let c = cell(u + w, v - w, n, n, 1.0, seed + 1);
@@ -177,7 +184,10 @@ pub(super) fn spangle(look: &Appearance, size: usize) -> Surface {
         let feather = gradient(way * 0.5 + turn, 0.5, 40, 1, seed + 2);
         Texel {
             height: 0.0008 * feather,
-            color: lit(look.color(0), 0.66 + 0.55 * nth(c.id, 2) + 0.14 * feather),
+            color: lit(
+                appearance.color(0),
+                0.66 + 0.55 * nth(c.id, 2) + 0.14 * feather,
+            ),
             gloss: 0.3,
             glow: 0.10 * nth(c.id, 3),
         }
@@ -185,10 +195,10 @@ pub(super) fn spangle(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Thin sheet crumpled and spread: foil, tissue, cellophane.
-pub(super) fn crumple(look: &Appearance, size: usize) -> Surface {
-    let seed = look.seed;
-    let n = look.count(5.0);
-    let shine = look.shine(0.1);
+pub(super) fn crumple(appearance: &Appearance, size: usize) -> Surface {
+    let seed = appearance.seed;
+    let n = appearance.count(5.0);
+    let shine = appearance.shine(0.1);
     let height = |u: f32, v: f32| {
         let mut sum = 0.0;
         let (mut weight, mut k) = (1.0, n);
@@ -220,7 +230,10 @@ pub(super) fn crumple(look: &Appearance, size: usize) -> Surface {
         };
         Texel {
             height: 0.42 * h,
-            color: lit(look.color(0), 0.97 + 0.04 * octaves(u, v, 30, 30, 2, seed)),
+            color: lit(
+                appearance.color(0),
+                0.97 + 0.04 * octaves(u, v, 30, 30, 2, seed),
+            ),
             gloss: shine,
             glow,
         }
@@ -228,10 +241,10 @@ pub(super) fn crumple(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Regular grooves or waves across the patch.
-pub(super) fn ribs(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(10.0);
-    let seed = look.seed;
-    let shine = look.shine(0.3);
+pub(super) fn ribs(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(10.0);
+    let seed = appearance.seed;
+    let shine = appearance.shine(0.3);
     Surface::of(size, |u, v| {
         let t = fract(v * n as f32) * 2.0 - 1.0;
         let rib = dome(t * 0.97);
@@ -240,7 +253,7 @@ pub(super) fn ribs(look: &Appearance, size: usize) -> Surface {
         Texel {
             height: 0.36 * rib / n as f32 + 0.0006 * fine,
             color: lit(
-                look.color(0),
+                appearance.color(0),
                 (0.42 + 0.6 * rib) * (0.95 + 0.08 * id) + 0.06 * fine,
             ),
             gloss: shine,
@@ -250,9 +263,9 @@ pub(super) fn ribs(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Fine grooves side by side, in bands: records.
-pub(super) fn grooves(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(48.0);
-    let seed = look.seed;
+pub(super) fn grooves(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(48.0);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let t = fract(v * n as f32 + 0.25 * gradient(u, v, 26, n, seed));
         let band = step(0.78, 0.80, fract(v * 3.0)) * step(0.88, 0.86, fract(v * 3.0));
@@ -260,8 +273,8 @@ pub(super) fn grooves(look: &Appearance, size: usize) -> Surface {
         let light = room(u, seed);
         Texel {
             height: 0.20 * groove / n as f32,
-            color: lit(look.color(0), 0.75 + 0.5 * groove),
-            gloss: look.shine(0.4),
+            color: lit(appearance.color(0), 0.75 + 0.5 * groove),
+            gloss: appearance.shine(0.4),
             glow: (0.16 + 0.10 * groove) * step(0.3, 1.0, light),
         }
     })

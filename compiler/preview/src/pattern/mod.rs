@@ -31,8 +31,8 @@ macro_rules! patterns {
         }
 
         /// The surface of a pattern in a look, `size` pixels wide and high.
-        pub(crate) fn draw(pattern: Pattern, look: &Appearance, size: usize) -> Surface {
-            match pattern { $(Pattern::$name => $module::$function(look, size),)* }
+        pub(crate) fn draw(pattern: Pattern, appearance: &Appearance, size: usize) -> Surface {
+            match pattern { $(Pattern::$name => $module::$function(appearance, size),)* }
         }
     };
 }

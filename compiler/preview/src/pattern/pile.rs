@@ -59,18 +59,18 @@ struct Strokes {
     gloss: f32,
 }
 
-fn strokes(look: &Appearance, surface: &mut Surface, s: &Strokes) {
-    let scale = look.fineness;
-    let mut chance = Sequence::new(look.seed);
+fn strokes(appearance: &Appearance, surface: &mut Surface, s: &Strokes) {
+    let scale = appearance.fineness;
+    let mut chance = Sequence::new(appearance.seed);
     let count = (s.count * scale * scale) as usize;
-    let seed = look.seed + 9;
+    let seed = appearance.seed + 9;
     for k in 0..count {
         let (u, v) = (chance.next(), chance.next());
         let flow = s.flow.0 * gradient(u, v, s.flow.1, s.flow.1, seed);
         let turn = s.turn + flow + s.stray * chance.signed();
         let bend = s.bend * chance.signed();
         let length = s.length * (0.6 + 0.6 * chance.next()) / scale;
-        let base = look.any(chance.next());
+        let base = appearance.any(chance.next());
         let tone = 0.72 + 0.5 * chance.next();
         let level = 0.012 * k as f32 / count as f32;
         let thread = Thread {
@@ -87,10 +87,10 @@ fn strokes(look: &Appearance, surface: &mut Surface, s: &Strokes) {
 }
 
 /// Blades of grass, which grow upwards and lean.
-pub(super) fn grass(look: &Appearance, size: usize) -> Surface {
-    let mut surface = ground(size, lit(look.color(0), 0.16));
+pub(super) fn grass(appearance: &Appearance, size: usize) -> Surface {
+    let mut surface = ground(size, lit(appearance.color(0), 0.16));
     strokes(
-        look,
+        appearance,
         &mut surface,
         &Strokes {
             count: 2300.0,
@@ -110,10 +110,10 @@ pub(super) fn grass(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Long soft fur in locks.
-pub(super) fn fur(look: &Appearance, size: usize) -> Surface {
-    let mut surface = ground(size, lit(look.color(0), 0.3));
+pub(super) fn fur(appearance: &Appearance, size: usize) -> Surface {
+    let mut surface = ground(size, lit(appearance.color(0), 0.3));
     strokes(
-        look,
+        appearance,
         &mut surface,
         &Strokes {
             count: 5200.0,
@@ -133,10 +133,10 @@ pub(super) fn fur(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Long hair that lies in one way.
-pub(super) fn hair(look: &Appearance, size: usize) -> Surface {
-    let mut surface = ground(size, lit(look.color(0), 0.4));
+pub(super) fn hair(appearance: &Appearance, size: usize) -> Surface {
+    let mut surface = ground(size, lit(appearance.color(0), 0.4));
     strokes(
-        look,
+        appearance,
         &mut surface,
         &Strokes {
             count: 2600.0,
@@ -156,12 +156,12 @@ pub(super) fn hair(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Matted fibres without a way.
-pub(super) fn felt(look: &Appearance, size: usize) -> Surface {
-    let mut surface = ground(size, lit(look.color(0), 0.8));
-    let seed = look.seed;
+pub(super) fn felt(appearance: &Appearance, size: usize) -> Surface {
+    let mut surface = ground(size, lit(appearance.color(0), 0.8));
+    let seed = appearance.seed;
     let n = size as f32;
     strokes(
-        look,
+        appearance,
         &mut surface,
         &Strokes {
             count: 5200.0,
@@ -182,7 +182,7 @@ pub(super) fn felt(look: &Appearance, size: usize) -> Surface {
         // Tones close together: the mat is one colour with soft clouds.
         let cloud =
             1.0 + 0.16 * gradient(u, v, 7, 7, seed + 2) + 0.10 * gradient(u, v, 22, 22, seed + 3);
-        texel.color = lit(mix(look.color(0), texel.color, 0.75), cloud);
+        texel.color = lit(mix(appearance.color(0), texel.color, 0.75), cloud);
         // Fibres lie in each other rather than on top.
         texel.height = 0.25 * texel.height + 0.004 * gradient(u, v, 8, 8, seed + 4);
     }
@@ -190,10 +190,10 @@ pub(super) fn felt(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Long yarns that fall over: shag.
-pub(super) fn shag(look: &Appearance, size: usize) -> Surface {
-    let mut surface = ground(size, lit(look.color(0), 0.25));
+pub(super) fn shag(appearance: &Appearance, size: usize) -> Surface {
+    let mut surface = ground(size, lit(appearance.color(0), 0.25));
     strokes(
-        look,
+        appearance,
         &mut surface,
         &Strokes {
             count: 900.0,
@@ -213,10 +213,10 @@ pub(super) fn shag(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Stalks thrown over each other.
-pub(super) fn straw(look: &Appearance, size: usize) -> Surface {
-    let mut surface = ground(size, lit(look.color(0), 0.22));
+pub(super) fn straw(appearance: &Appearance, size: usize) -> Surface {
+    let mut surface = ground(size, lit(appearance.color(0), 0.22));
     strokes(
-        look,
+        appearance,
         &mut surface,
         &Strokes {
             count: 620.0,
@@ -229,18 +229,18 @@ pub(super) fn straw(look: &Appearance, size: usize) -> Surface {
             bend: 0.02,
             root: 0.95,
             lift: 0.006,
-            gloss: look.shine(0.25),
+            gloss: appearance.shine(0.25),
         },
     );
     surface
 }
 
 /// Springy coils: scouring pads, steel wool, coir, loofah.
-pub(super) fn tangle(look: &Appearance, size: usize) -> Surface {
-    let mut surface = ground(size, lit(look.color(0), 0.22));
-    let width = 0.28 / look.count(40.0) as f32;
+pub(super) fn tangle(appearance: &Appearance, size: usize) -> Surface {
+    let mut surface = ground(size, lit(appearance.color(0), 0.22));
+    let width = 0.28 / appearance.count(40.0) as f32;
     strokes(
-        look,
+        appearance,
         &mut surface,
         &Strokes {
             count: 2300.0,
@@ -253,19 +253,19 @@ pub(super) fn tangle(look: &Appearance, size: usize) -> Surface {
             bend: 0.85,
             root: 0.9,
             lift: 0.5 * width,
-            gloss: look.shine(0.3),
+            gloss: appearance.shine(0.3),
         },
     );
     surface
 }
 
 /// Short hairs on a skin.
-pub(super) fn stubble(look: &Appearance, size: usize) -> Surface {
-    let mut surface = super::hide::skin(look, size);
-    let mut chance = Sequence::new(look.seed + 1);
+pub(super) fn stubble(appearance: &Appearance, size: usize) -> Surface {
+    let mut surface = super::hide::skin(appearance, size);
+    let mut chance = Sequence::new(appearance.seed + 1);
     for _ in 0..420 {
         let (u, v) = (chance.next(), chance.next());
-        let color = lit(look.color(9), 0.6 + 0.5 * chance.next());
+        let color = lit(appearance.color(9), 0.6 + 0.5 * chance.next());
         let thread = Thread {
             width: 0.005,
             taper: 0.5,

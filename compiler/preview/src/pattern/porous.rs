@@ -8,19 +8,19 @@ use crate::{
 };
 
 /// Open pores of many sizes.
-pub(super) fn sponge(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(9.0);
-    pores(look, size, n, 1.0)
+pub(super) fn sponge(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(9.0);
+    pores(appearance, size, n, 1.0)
 }
 
 /// Small even pores.
-pub(super) fn foam(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(26.0);
-    pores(look, size, n, 0.45)
+pub(super) fn foam(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(26.0);
+    pores(appearance, size, n, 0.45)
 }
 
-fn pores(look: &Appearance, size: usize, n: i32, uneven: f32) -> Surface {
-    let seed = look.seed;
+fn pores(appearance: &Appearance, size: usize, n: i32, uneven: f32) -> Surface {
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let w = 0.14 / n as f32;
         let (a, b) = (
@@ -39,27 +39,27 @@ fn pores(look: &Appearance, size: usize, n: i32, uneven: f32) -> Surface {
             }
         }
         let fine = octaves(u, v, n * 6, n * 6, 2, seed + 3);
-        let wall = lit(look.color(0), 0.95 + 0.10 * fine);
+        let wall = lit(appearance.color(0), 0.95 + 0.10 * fine);
         Texel {
             height: (-0.30 * deep - 0.10 * hole + 0.02 * fine) / n as f32,
             color: mix(
                 wall,
                 lit(
-                    look.color(1),
+                    appearance.color(1),
                     lerp(1.0, 0.35 + 0.35 * (1.0 - uneven), (deep * 1.5).min(1.0)),
                 ),
                 hole,
             ),
-            gloss: look.shine(0.0) * (1.0 - hole),
+            gloss: appearance.shine(0.0) * (1.0 - hole),
             glow: 0.0,
         }
     })
 }
 
 /// Beads of foam pressed into a block.
-pub(super) fn beads(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(13.0);
-    let seed = look.seed;
+pub(super) fn beads(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(13.0);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let c = cell(u, v, n, n, 0.7, seed);
         let t = (c.edge / 0.42).min(1.0);
@@ -70,19 +70,19 @@ pub(super) fn beads(look: &Appearance, size: usize) -> Surface {
         Texel {
             height: (0.24 * pillow * (0.8 + 0.35 * nth(c.id, 1)) + 0.006 * skin) / n as f32,
             color: lit(
-                look.color(0),
+                appearance.color(0),
                 (0.97 + 0.06 * nth(c.id, 2)) * lerp(0.80, 1.0, seam) * lerp(0.97, 1.0, skin),
             ),
-            gloss: look.shine(0.15),
+            gloss: appearance.shine(0.15),
             glow: 0.0,
         }
     })
 }
 
 /// Waves of pyramids: acoustic foam.
-pub(super) fn wedges(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(5.0);
-    let seed = look.seed;
+pub(super) fn wedges(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(5.0);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let a = 2.0 * (0.5 - (crate::noise::fract(u * n as f32) - 0.5).abs());
         let b = 2.0 * (0.5 - (crate::noise::fract(v * n as f32) - 0.5).abs());
@@ -91,7 +91,7 @@ pub(super) fn wedges(look: &Appearance, size: usize) -> Surface {
         let hole = step(0.45, 0.2, pore.near);
         Texel {
             height: 0.30 * h / n as f32 - 0.0014 * hole,
-            color: lit(look.color(0), (0.55 + 0.55 * h) * (1.0 - 0.30 * hole)),
+            color: lit(appearance.color(0), (0.55 + 0.55 * h) * (1.0 - 0.30 * hole)),
             gloss: 0.0,
             glow: 0.0,
         }
@@ -99,9 +99,9 @@ pub(super) fn wedges(look: &Appearance, size: usize) -> Surface {
 }
 
 /// A baked crust: browned, blistered, cracked.
-pub(super) fn crust(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(5.0);
-    let seed = look.seed;
+pub(super) fn crust(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(5.0);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let w = 0.07 * octaves(u, v, 5, 5, 3, seed);
         let c = cell(u + w, v - w, n, n, 1.0, seed + 1);
@@ -111,12 +111,12 @@ pub(super) fn crust(look: &Appearance, size: usize) -> Surface {
         let brown = octaves(u, v, 4, 4, 4, seed + 4);
         let fine = octaves(u, v, 50, 50, 3, seed + 5);
         let flour = step(0.25, 0.7, octaves(u, v, 7, 7, 4, seed + 6));
-        let color = mix(look.color(0), look.color(1), 0.5 + 1.1 * brown);
-        let color = mix(color, look.color(2), (0.9 * split).max(0.45 * flour));
+        let color = mix(appearance.color(0), appearance.color(1), 0.5 + 1.1 * brown);
+        let color = mix(color, appearance.color(2), (0.9 * split).max(0.45 * flour));
         Texel {
             height: 0.008 * blister + 0.004 * fine - 0.018 * split + 0.012 * brown,
             color: lit(color, 1.0 + 0.16 * fine),
-            gloss: look.shine(0.05),
+            gloss: appearance.shine(0.05),
             glow: 0.0,
         }
     })

@@ -8,9 +8,9 @@ use crate::{
 };
 
 /// A sheet that was folded twice, with fibres in it.
-pub(super) fn paper(look: &Appearance, size: usize) -> Surface {
-    let seed = look.seed;
-    let shine = look.shine(0.0);
+pub(super) fn paper(appearance: &Appearance, size: usize) -> Surface {
+    let seed = appearance.seed;
+    let shine = appearance.shine(0.0);
     let mut surface = Surface::of(size, |u, v| {
         // A crease springs back: a sharp edge that fades into the sheet.
         let fold = |d: f32| {
@@ -27,7 +27,7 @@ pub(super) fn paper(look: &Appearance, size: usize) -> Surface {
         let wavy = octaves(u, v, 2, 3, 2, seed + 4);
         Texel {
             height: fold(a) - fold(b) * 0.9 + 0.0009 * tooth + 0.020 * wavy,
-            color: lit(look.color(0), 0.93 + 0.035 * cloud - 0.10 * crease),
+            color: lit(appearance.color(0), 0.93 + 0.035 * cloud - 0.10 * crease),
             gloss: shine,
             glow: 0.0,
         }
@@ -37,7 +37,7 @@ pub(super) fn paper(look: &Appearance, size: usize) -> Surface {
         let start = (chance.next(), chance.next());
         let turn = chance.next();
         let length = 0.012 + 0.02 * chance.next();
-        let color = lit(look.color(0), 0.80 + 0.10 * chance.next());
+        let color = lit(appearance.color(0), 0.80 + 0.10 * chance.next());
         let end = (
             start.0 + length * wave(turn),
             start.1 + length * wave(turn + 0.25),
@@ -66,9 +66,9 @@ fn flat(surface: &mut Surface, points: &[(f32, f32)], thread: &Thread) {
 }
 
 /// Brown board with the waves of its middle showing through.
-pub(super) fn cardboard(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(13.0);
-    let seed = look.seed;
+pub(super) fn cardboard(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(13.0);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let flute = wave(u * n as f32);
         let speck = cell(u, v, 44, 60, 1.0, seed);
@@ -86,27 +86,27 @@ pub(super) fn cardboard(look: &Appearance, size: usize) -> Surface {
         let tooth = octaves(u, v, 90, 60, 2, seed + 2);
         // Worn ends show the waves themselves.
         let color = lit(
-            look.color(0),
+            appearance.color(0),
             0.93 + 0.10 * flute + 0.10 * cloud + 0.07 * tooth,
         );
         let color = mix(
             color,
-            lit(look.color(0), if light { 1.35 } else { 0.45 }),
+            lit(appearance.color(0), if light { 1.35 } else { 0.45 }),
             0.6 * fleck,
         );
         Texel {
             height: 0.30 * flute / (n * 6) as f32 + 0.0008 * tooth,
             color,
-            gloss: look.shine(0.0),
+            gloss: appearance.shine(0.0),
             glow: 0.0,
         }
     })
 }
 
 /// Lines of print.
-pub(super) fn print(look: &Appearance, size: usize) -> Surface {
-    let lines = look.count(22.0);
-    let seed = look.seed;
+pub(super) fn print(appearance: &Appearance, size: usize) -> Surface {
+    let lines = appearance.count(22.0);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let y = v * lines as f32;
         let line = floor(y).rem_euclid(lines);
@@ -137,17 +137,21 @@ pub(super) fn print(look: &Appearance, size: usize) -> Surface {
         let cloud = octaves(u, v, 30, 30, 3, seed + 3);
         Texel {
             height: 0.0012 * cloud + 0.008 * octaves(u, v, 2, 3, 2, seed + 4),
-            color: mix(lit(look.color(0), 0.97 + 0.07 * cloud), look.color(1), dark),
-            gloss: look.shine(0.0),
+            color: mix(
+                lit(appearance.color(0), 0.97 + 0.07 * cloud),
+                appearance.color(1),
+                dark,
+            ),
+            gloss: appearance.shine(0.0),
             glow: 0.0,
         }
     })
 }
 
 /// Moulded plastic: one clean colour, soft waves, a mirrored lamp.
-pub(super) fn plastic(look: &Appearance, size: usize) -> Surface {
-    let seed = look.seed;
-    let shine = look.shine(0.7);
+pub(super) fn plastic(appearance: &Appearance, size: usize) -> Surface {
+    let seed = appearance.seed;
+    let shine = appearance.shine(0.7);
     Surface::of(size, |u, v| {
         let w = octaves(u, v, 2, 2, 2, seed);
         let t = fract(u + v + 0.10 * w);
@@ -157,7 +161,7 @@ pub(super) fn plastic(look: &Appearance, size: usize) -> Surface {
         let peel = gradient(u, v, 40, 40, seed + 1);
         Texel {
             height: 0.0003 * peel,
-            color: lit(look.color(0), 0.80 + 0.26 * shade),
+            color: lit(appearance.color(0), 0.80 + 0.26 * shade),
             gloss: 0.4 * shine,
             glow: 0.34 * shine * lamp * (0.6 + 0.4 * shade),
         }
@@ -165,10 +169,10 @@ pub(super) fn plastic(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Moulded with a fine pebbled grain: dashboards, housings, rubber.
-pub(super) fn moulded(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(44.0);
-    let seed = look.seed;
-    let shine = look.shine(0.25);
+pub(super) fn moulded(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(44.0);
+    let seed = appearance.seed;
+    let shine = appearance.shine(0.25);
     Surface::of(size, |u, v| {
         let w = 0.35 / n as f32;
         let c = cell(u + w * gradient(u, v, n, n, seed), v, n, n, 1.0, seed + 1);
@@ -176,7 +180,10 @@ pub(super) fn moulded(look: &Appearance, size: usize) -> Surface {
         let cloud = octaves(u, v, 3, 3, 2, seed + 2);
         Texel {
             height: 0.26 * pebble / n as f32,
-            color: lit(look.color(0), (0.80 + 0.20 * pebble) * (1.0 + 0.08 * cloud)),
+            color: lit(
+                appearance.color(0),
+                (0.80 + 0.20 * pebble) * (1.0 + 0.08 * cloud),
+            ),
             gloss: shine,
             glow: 0.0,
         }
@@ -184,10 +191,10 @@ pub(super) fn moulded(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Lines of a print head: layers side by side.
-pub(super) fn layers(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(28.0);
-    let seed = look.seed;
-    let shine = look.shine(0.4);
+pub(super) fn layers(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(28.0);
+    let seed = appearance.seed;
+    let shine = appearance.shine(0.4);
     Surface::of(size, |u, v| {
         let y = v * n as f32 + 0.10 * gradient(u, v, 5, n, seed);
         let t = 2.0 * fract(y) - 1.0;
@@ -195,7 +202,10 @@ pub(super) fn layers(look: &Appearance, size: usize) -> Surface {
         let id = unit(hash(floor(y).rem_euclid(n), 1, seed));
         Texel {
             height: 0.32 * bead / n as f32,
-            color: lit(look.color(0), (0.45 + 0.6 * bead) * (0.94 + 0.12 * id)),
+            color: lit(
+                appearance.color(0),
+                (0.45 + 0.6 * bead) * (0.94 + 0.12 * id),
+            ),
             gloss: shine,
             glow: 0.35 * shine * step(0.30, 0.05, (t + 0.35).abs()),
         }

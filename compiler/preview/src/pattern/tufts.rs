@@ -9,10 +9,10 @@ use crate::{
 };
 
 /// Short fibres in tufts: fleece, cotton wool, plush.
-pub(super) fn fleece(look: &Appearance, size: usize) -> Surface {
-    let mut surface = ground(size, lit(look.color(0), 0.55));
-    let mut chance = Sequence::new(look.seed);
-    let n = look.count(19.0);
+pub(super) fn fleece(appearance: &Appearance, size: usize) -> Surface {
+    let mut surface = ground(size, lit(appearance.color(0), 0.55));
+    let mut chance = Sequence::new(appearance.seed);
+    let n = appearance.count(19.0);
     for _ in 0..(n * n * 2) {
         let (u, v) = (chance.next(), chance.next());
         let level = 0.016 * chance.next();
@@ -20,7 +20,7 @@ pub(super) fn fleece(look: &Appearance, size: usize) -> Surface {
         let curl = chance.next();
         for j in 0..7 {
             let color = lit(
-                look.any(chance.next()),
+                appearance.any(chance.next()),
                 tone * (0.92 + 0.16 * chance.next()),
             );
             let thread = Thread {
@@ -40,14 +40,14 @@ pub(super) fn fleece(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Dense small loops in every way: towels, with their flat border.
-pub(super) fn loops(look: &Appearance, size: usize) -> Surface {
-    let mut surface = ground(size, lit(look.color(0), 0.5));
-    let mut chance = Sequence::new(look.seed);
-    let n = look.count(30.0);
+pub(super) fn loops(appearance: &Appearance, size: usize) -> Surface {
+    let mut surface = ground(size, lit(appearance.color(0), 0.5));
+    let mut chance = Sequence::new(appearance.seed);
+    let n = appearance.count(30.0);
     let pitch = 1.0 / n as f32;
     for k in 0..(3 * n * n) {
         let (u, v) = (chance.next(), chance.next());
-        let color = lit(look.any(chance.next()), 0.84 + 0.26 * chance.next());
+        let color = lit(appearance.any(chance.next()), 0.84 + 0.26 * chance.next());
         let (turn, radius) = (chance.next(), pitch * (0.30 + 0.16 * chance.next()));
         let points: Vec<(f32, f32)> = (0..=7)
             .map(|k| {
@@ -66,12 +66,12 @@ pub(super) fn loops(look: &Appearance, size: usize) -> Surface {
         };
         surface.thread(&points, &thread);
     }
-    bordered(look, &mut surface, n);
+    bordered(appearance, &mut surface, n);
     surface
 }
 
 /// The flat woven band of a towel, between two cords.
-fn bordered(look: &Appearance, surface: &mut Surface, n: i32) {
+fn bordered(appearance: &Appearance, surface: &mut Surface, n: i32) {
     let size = surface.size;
     for (k, texel) in surface.texels.iter_mut().enumerate() {
         let (u, v) = (
@@ -85,7 +85,7 @@ fn bordered(look: &Appearance, surface: &mut Surface, n: i32) {
                 dome(((far - 0.085) / 0.014).abs().min(1.0)).max(dome((far / 0.020).min(1.0)));
             texel.height = 0.05 / n as f32 * rib * (1.0 - cord) + 0.010 * cord - 0.004;
             texel.color = lit(
-                look.color(2),
+                appearance.color(2),
                 0.90 + 0.08 * rib * (1.0 - cord) + 0.12 * cord,
             );
         }
@@ -93,13 +93,13 @@ fn bordered(look: &Appearance, surface: &mut Surface, n: i32) {
 }
 
 /// Thick rows of loops: loop carpets.
-pub(super) fn thick_loops(look: &Appearance, size: usize) -> Surface {
-    looped(look, size, look.count(17.0), 0.66)
+pub(super) fn thick_loops(appearance: &Appearance, size: usize) -> Surface {
+    looped(appearance, size, appearance.count(17.0), 0.66)
 }
 
-fn looped(look: &Appearance, size: usize, n: i32, width: f32) -> Surface {
-    let mut surface = ground(size, lit(look.color(0), 0.34));
-    let mut chance = Sequence::new(look.seed);
+fn looped(appearance: &Appearance, size: usize, n: i32, width: f32) -> Surface {
+    let mut surface = ground(size, lit(appearance.color(0), 0.34));
+    let mut chance = Sequence::new(appearance.seed);
     let pitch = 1.0 / n as f32;
     for row in 0..n {
         let shift = 0.5 * (row & 1) as f32;
@@ -107,7 +107,7 @@ fn looped(look: &Appearance, size: usize, n: i32, width: f32) -> Surface {
             let u = (column as f32 + shift + 0.28 * chance.signed()) * pitch;
             let v = (row as f32 + 0.5 + 0.28 * chance.signed()) * pitch;
             let tone = 0.84 + 0.3 * chance.next();
-            let color = lit(look.any(chance.next()), tone);
+            let color = lit(appearance.any(chance.next()), tone);
             let lean = 0.12 * chance.signed();
             let radius = pitch * (0.40 + 0.14 * chance.next());
             // An arch seen from above and in front: up, over, down.
@@ -133,22 +133,22 @@ fn looped(look: &Appearance, size: usize, n: i32, width: f32) -> Surface {
 }
 
 /// Cut yarns that stand on end, each a tuft of fibres.
-pub(super) fn cut_pile(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(34.0);
-    tufts(look, size, n, 0.62)
+pub(super) fn cut_pile(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(34.0);
+    tufts(appearance, size, n, 0.62)
 }
 
-fn tufts(look: &Appearance, size: usize, n: i32, length: f32) -> Surface {
-    let mut surface = ground(size, lit(look.color(0), 0.3));
-    let mut chance = Sequence::new(look.seed);
+fn tufts(appearance: &Appearance, size: usize, n: i32, length: f32) -> Surface {
+    let mut surface = ground(size, lit(appearance.color(0), 0.3));
+    let mut chance = Sequence::new(appearance.seed);
     let pitch = 1.0 / n as f32;
     for row in 0..n {
         for column in 0..n {
             let u = (column as f32 + 0.5 + 0.7 * chance.signed()) * pitch;
             let v = (row as f32 + 0.5 + 0.7 * chance.signed()) * pitch;
-            let color = lit(look.any(chance.next()), 0.75 + 0.45 * chance.next());
+            let color = lit(appearance.any(chance.next()), 0.75 + 0.45 * chance.next());
             let level = 0.30 * pitch * chance.next();
-            let turn = 0.70 + 0.10 * gradient(u, v, 4, 4, look.seed + 1);
+            let turn = 0.70 + 0.10 * gradient(u, v, 4, 4, appearance.seed + 1);
             for _ in 0..6 {
                 let shade = 0.86 + 0.28 * chance.next();
                 let thread = Thread {
@@ -180,17 +180,17 @@ fn tufts(look: &Appearance, size: usize, n: i32, length: f32) -> Surface {
 }
 
 /// Stiff bristles seen from their tips.
-pub(super) fn bristles(look: &Appearance, size: usize) -> Surface {
-    let mut surface = ground(size, lit(look.color(1), 0.25));
-    let mut chance = Sequence::new(look.seed);
-    let n = look.count(26.0);
+pub(super) fn bristles(appearance: &Appearance, size: usize) -> Surface {
+    let mut surface = ground(size, lit(appearance.color(1), 0.25));
+    let mut chance = Sequence::new(appearance.seed);
+    let n = appearance.count(26.0);
     let pitch = 1.0 / n as f32;
     for row in 0..n {
         for column in 0..n {
             let u = (column as f32 + 0.5 * (row & 1) as f32 + 0.18 * chance.signed()) * pitch;
             let v = (row as f32 + 0.5 + 0.18 * chance.signed()) * pitch;
-            let (du, dv) = (0.5 + 0.5 * gradient(u, v, 4, 4, look.seed), 0.9);
-            let color = lit(look.color(0), 0.8 + 0.4 * chance.next());
+            let (du, dv) = (0.5 + 0.5 * gradient(u, v, 4, 4, appearance.seed), 0.9);
+            let color = lit(appearance.color(0), 0.8 + 0.4 * chance.next());
             let reach = pitch * (0.6 + 0.5 * chance.next());
             let thread = Thread {
                 width: 0.36 * pitch,
@@ -199,7 +199,7 @@ pub(super) fn bristles(look: &Appearance, size: usize) -> Surface {
                 rise: 0.8 * pitch,
                 lift: 0.10 * pitch,
                 colors: (lit(color, 0.22), color),
-                gloss: look.shine(0.3),
+                gloss: appearance.shine(0.3),
             };
             let tip = (u - reach * du, v - reach * dv);
             surface.thread(&[(u, v), tip], &thread);
@@ -219,16 +219,16 @@ pub(super) fn bristles(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Small leaves and tufts of a cushion.
-pub(super) fn moss(look: &Appearance, size: usize) -> Surface {
-    let mut surface = ground(size, lit(look.color(0), 0.25));
-    let mut chance = Sequence::new(look.seed);
-    let n = look.count(26.0);
+pub(super) fn moss(appearance: &Appearance, size: usize) -> Surface {
+    let mut surface = ground(size, lit(appearance.color(0), 0.25));
+    let mut chance = Sequence::new(appearance.seed);
+    let n = appearance.count(26.0);
     for _ in 0..(n * n) {
         let (u, v) = (chance.next(), chance.next());
-        let mound = gradient(u, v, 5, 5, look.seed + 3);
+        let mound = gradient(u, v, 5, 5, appearance.seed + 3);
         let level = 0.012 + 0.02 * mound + 0.004 * chance.next();
         let color = lit(
-            look.any(chance.next()),
+            appearance.any(chance.next()),
             (0.75 + 0.35 * mound) * (0.8 + 0.5 * chance.next()),
         );
         let spin = chance.next();

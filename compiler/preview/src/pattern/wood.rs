@@ -11,7 +11,7 @@ use crate::{
 
 /// Height and tone of flat-sawn timber: rings that arch around a heart, pores, a knot.
 fn grain(
-    look: &Appearance,
+    appearance: &Appearance,
     u: f32,
     v: f32,
     rings: i32,
@@ -39,26 +39,30 @@ fn grain(
     let late = step(0.15, 0.92, f) * step(1.0, 0.94, f);
     let fibre = gradient(u, v, 7, 150, seed + 3);
     let pore = step(0.40, 0.62, gradient(u, v, 22, 210, seed + 4)) * (0.4 + 0.6 * (1.0 - late));
-    let color = mix(look.color(0), look.color(1), 0.80 * late + 0.10 * fibre);
+    let color = mix(
+        appearance.color(0),
+        appearance.color(1),
+        0.80 * late + 0.10 * fibre,
+    );
     let color = lit(
         color,
         1.0 + 0.13 * fibre - 0.30 * pore + 0.10 * octaves(u, v, 2, 5, 2, seed + 5),
     );
     let color = mix(
         color,
-        lit(look.color(1), 0.45 + 0.2 * wave(14.0 * t)),
+        lit(appearance.color(1), 0.45 + 0.2 * wave(14.0 * t)),
         0.9 * heart,
     );
     (0.0012 * late - 0.0030 * pore + 0.0010 * fibre, color)
 }
 
 /// A sawn or planed board.
-pub(super) fn board(look: &Appearance, size: usize) -> Surface {
-    let rings = look.count(9.0);
-    let shine = look.shine(0.1);
+pub(super) fn board(appearance: &Appearance, size: usize) -> Surface {
+    let rings = appearance.count(9.0);
+    let shine = appearance.shine(0.1);
     Surface::of(size, |u, v| {
-        let (height, color) = grain(look, u, v, rings, look.seed, true);
-        let gleam = step(0.1, 0.7, octaves(u, v, 1, 2, 2, look.seed + 8));
+        let (height, color) = grain(appearance, u, v, rings, appearance.seed, true);
+        let gleam = step(0.1, 0.7, octaves(u, v, 1, 2, 2, appearance.seed + 8));
         Texel {
             height: height * 1.4,
             color,
@@ -69,29 +73,29 @@ pub(super) fn board(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Boards side by side: floors, decks, pallets.
-pub(super) fn planks(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(4.0);
-    let shine = look.shine(0.1);
+pub(super) fn planks(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(4.0);
+    let shine = appearance.shine(0.1);
     Surface::of(size, |u, v| {
         let y = v * n as f32;
         let row = floor(y).rem_euclid(n);
-        let id = hash(row, 3, look.seed);
+        let id = hash(row, 3, appearance.seed);
         let a = fract(u + unit(id));
         let f = fract(y);
         let joint = step(0.03, 0.012, f.min(1.0 - f) * 0.5).max(step(0.006, 0.002, a.min(1.0 - a)));
         let (height, color) = grain(
-            look,
+            appearance,
             a,
             fract(v + nth(id, 1)),
             10,
-            look.seed + (id & 63),
+            appearance.seed + (id & 63),
             nth(id, 2) < 0.35,
         );
         let rough = 1.0 - shine.min(1.0);
         Texel {
             height: height * (1.0 + 2.0 * rough) - 0.012 * joint,
             color: lit(
-                mix(color, lit(look.color(1), 0.12), joint),
+                mix(color, lit(appearance.color(1), 0.12), joint),
                 0.82 + 0.32 * nth(id, 4),
             ),
             gloss: shine * (1.0 - joint),
@@ -101,9 +105,9 @@ pub(super) fn planks(look: &Appearance, size: usize) -> Surface {
 }
 
 /// The end of a trunk: rings around a heart, cracks from it.
-pub(super) fn rings(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(17.0);
-    let seed = look.seed;
+pub(super) fn rings(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(17.0);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let (du, dv) = (u - 0.5, v - 0.5);
         let w = 0.035 * octaves(u, v, 3, 3, 3, seed);
@@ -115,11 +119,15 @@ pub(super) fn rings(look: &Appearance, size: usize) -> Surface {
         let crack =
             step(0.010, 0.003, (fract(turn + 0.4 * w) - unit(seed)).abs() * d) * step(0.42, 0.1, d);
         let fine = octaves(u, v, 60, 60, 2, seed + 2);
-        let color = mix(look.color(0), look.color(1), 0.75 * late + 0.10 * ray);
+        let color = mix(
+            appearance.color(0),
+            appearance.color(1),
+            0.75 * late + 0.10 * ray,
+        );
         Texel {
             height: 0.0025 * late + 0.002 * fine - 0.02 * crack,
             color: lit(
-                mix(color, lit(look.color(1), 0.2), crack),
+                mix(color, lit(appearance.color(1), 0.2), crack),
                 1.0 + 0.14 * fine - 0.12 * step(0.2, 0.5, d),
             ),
             gloss: 0.0,
@@ -129,9 +137,9 @@ pub(super) fn rings(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Furrowed bark in long plates.
-pub(super) fn bark(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(8.0);
-    let seed = look.seed;
+pub(super) fn bark(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(8.0);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let wx = 0.05 * octaves(u, v, 4, 3, 4, seed);
         let wy = 0.05 * octaves(u, v, 5, 4, 3, seed + 1);
@@ -149,7 +157,11 @@ pub(super) fn bark(look: &Appearance, size: usize) -> Surface {
         Texel {
             height,
             color: lit(
-                mix(look.color(1), look.color(0), ridge * (0.7 + 0.5 * fibre)),
+                mix(
+                    appearance.color(1),
+                    appearance.color(0),
+                    ridge * (0.7 + 0.5 * fibre),
+                ),
                 tone,
             ),
             gloss: 0.0,
@@ -159,9 +171,9 @@ pub(super) fn bark(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Smooth bark with short dark cross lines.
-pub(super) fn birch(look: &Appearance, size: usize) -> Surface {
-    let seed = look.seed;
-    let n = look.count(9.0);
+pub(super) fn birch(appearance: &Appearance, size: usize) -> Surface {
+    let seed = appearance.seed;
+    let n = appearance.count(9.0);
     Surface::of(size, |u, v| {
         let c = cell(u, v, n / 2 + 1, n * 2, 1.0, seed);
         let (half, thick) = (0.16 + 0.26 * nth(c.id, 1), 0.10 + 0.16 * nth(c.id, 2));
@@ -173,7 +185,11 @@ pub(super) fn birch(look: &Appearance, size: usize) -> Surface {
         };
         let curl = octaves(u, v, 3, 26, 3, seed + 1);
         let scar = step(0.42, 0.6, octaves(u, v, 3, 4, 3, seed + 2));
-        let color = mix(look.color(0), look.color(1), (0.9 * mark).max(0.8 * scar));
+        let color = mix(
+            appearance.color(0),
+            appearance.color(1),
+            (0.9 * mark).max(0.8 * scar),
+        );
         Texel {
             height: 0.003 * curl - 0.004 * mark + 0.01 * scar,
             color: lit(color, 0.95 + 0.14 * curl),
@@ -184,9 +200,9 @@ pub(super) fn birch(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Granules of cork pressed together, each of its own brown, with dark specks between them.
-pub(super) fn cork(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(17.0);
-    let seed = look.seed;
+pub(super) fn cork(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(17.0);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let w = 0.30 / n as f32;
         let (a, b) = (
@@ -207,14 +223,18 @@ pub(super) fn cork(look: &Appearance, size: usize) -> Surface {
         };
         let fine = octaves(u, v, n * 6, n * 6, 2, seed + 6);
         let shade = nth(id.id, 2);
-        let color = mix(look.color(0), look.color(1), shade * shade);
+        let color = mix(appearance.color(0), appearance.color(1), shade * shade);
         let color = lit(
             color,
             (0.86 + 0.30 * nth(id.id, 3) + 0.16 * fine) * lerp(0.72, 1.0, seam),
         );
         Texel {
             height: (0.055 * seam + 0.05 * nth(id.id, 4) + 0.03 * fine - 0.16 * dark) / n as f32,
-            color: mix(color, lit(look.color(2), 0.8 + 0.4 * fine), 0.92 * dark),
+            color: mix(
+                color,
+                lit(appearance.color(2), 0.8 + 0.4 * fine),
+                0.92 * dark,
+            ),
             gloss: 0.0,
             glow: 0.0,
         }
@@ -259,15 +279,15 @@ impl Chip {
 }
 
 /// Flat chips or flakes thrown over each other.
-pub(super) fn chips(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(9.0);
+pub(super) fn chips(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(9.0);
     let mut surface = Surface::of(size, |_, _| Texel {
         height: 0.0,
-        color: lit(look.color(0), 0.35),
+        color: lit(appearance.color(0), 0.35),
         gloss: 0.0,
         glow: 0.0,
     });
-    let mut chance = Sequence::new(look.seed);
+    let mut chance = Sequence::new(appearance.seed);
     let count = n * n * 7;
     let chips: Vec<Chip> = (0..count)
         .map(|k| {
@@ -277,7 +297,7 @@ pub(super) fn chips(look: &Appearance, size: usize) -> Surface {
                 place,
                 along: (0.45 + 0.75 * chance.next()) / n as f32,
                 across: (0.16 + 0.30 * chance.next()) / n as f32,
-                color: lit(look.any(chance.next()), 0.72 + 0.5 * chance.next()),
+                color: lit(appearance.any(chance.next()), 0.72 + 0.5 * chance.next()),
                 way: (wave(turn + 0.25), wave(turn)),
                 level: 0.020 * k as f32 / count as f32,
                 tilt: 0.10 * chance.signed(),
@@ -293,9 +313,9 @@ pub(super) fn chips(look: &Appearance, size: usize) -> Surface {
 }
 
 /// Canes side by side with knots: bamboo, reed.
-pub(super) fn bamboo(look: &Appearance, size: usize) -> Surface {
-    let n = look.count(5.0);
-    let seed = look.seed;
+pub(super) fn bamboo(appearance: &Appearance, size: usize) -> Surface {
+    let n = appearance.count(5.0);
+    let seed = appearance.seed;
     Surface::of(size, |u, v| {
         let x = u * n as f32;
         let id = hash(floor(x).rem_euclid(n), 1, seed);
@@ -306,8 +326,8 @@ pub(super) fn bamboo(look: &Appearance, size: usize) -> Surface {
         let lip = step(0.035, 0.0, (t - 0.475).abs());
         let fibre = gradient(u, v, n * 22, 4, seed);
         let color = mix(
-            look.color(0),
-            look.color(1),
+            appearance.color(0),
+            appearance.color(1),
             0.5 + 0.6 * gradient(u, v, n, 3, seed + 1),
         );
         Texel {
@@ -318,7 +338,7 @@ pub(super) fn bamboo(look: &Appearance, size: usize) -> Surface {
                     * lerp(0.30, 1.0, step(0.0, 0.45, body))
                     * (1.0 - 0.55 * node),
             ),
-            gloss: look.shine(0.45),
+            gloss: appearance.shine(0.45),
             glow: 0.22 * step(0.16, 0.0, (side + 0.42).abs()) * (1.0 - node),
         }
     })

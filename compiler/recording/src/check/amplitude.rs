@@ -1,6 +1,6 @@
 //! Clipping, drop-outs and impossible values of one channel.
 
-use super::verdict::{Finding, Kind, Severity};
+use super::verdict::{Finding, FindingKind, Severity};
 use crate::{
     channel::{Channel, Run},
     description::Quantity,
@@ -64,7 +64,7 @@ pub(super) fn check(channel: &Channel) -> (Vec<Finding>, Vec<Range<u64>>) {
             channel.clock.time_s(spans[0].start as f64)
         );
         findings.push(finding(
-            Kind::Clipping,
+            FindingKind::Clipping,
             what,
             "choose a larger range of the sensor or stroke more gently; the stretches are left out",
         ));
@@ -79,7 +79,7 @@ pub(super) fn check(channel: &Channel) -> (Vec<Finding>, Vec<Range<u64>>) {
             numbers.longest_missing
         );
         findings.push(finding(
-            Kind::DropOut,
+            FindingKind::DropOut,
             what,
             "look for a loose cable or a full buffer; the stretches are left out",
         ));
@@ -94,7 +94,7 @@ pub(super) fn check(channel: &Channel) -> (Vec<Finding>, Vec<Range<u64>>) {
             channel.clock.time_s(first.start as f64)
         );
         findings.push(finding(
-            Kind::DropOut,
+            FindingKind::DropOut,
             what,
             "look for a loose cable or a full buffer; the stretches are left out",
         ));
@@ -112,7 +112,7 @@ pub(super) fn check(channel: &Channel) -> (Vec<Finding>, Vec<Range<u64>>) {
             channel.clock.time_s(first as f64)
         );
         findings.push(finding(
-            Kind::Impossible,
+            FindingKind::Impossible,
             what,
             "look for a loose cable or an overflow; correct these values in the file",
         ));
@@ -123,7 +123,7 @@ pub(super) fn check(channel: &Channel) -> (Vec<Finding>, Vec<Range<u64>>) {
     if extreme > limit {
         let what = format!("impossible: a value of {extreme:.4} SI, more than {limit} on any desk");
         findings.push(finding(
-            Kind::Impossible,
+            FindingKind::Impossible,
             what,
             "check unit and scale; a spike in one sample is a loose cable",
         ));

@@ -32,7 +32,7 @@ fn values_beyond_any_desk_are_impossible_and_those_at_its_edge_are_not() {
                     .map(|n| sign * top * f64::from(n) / 500.0)
                     .collect()
             };
-            let kinds = |top: f64| -> Vec<Kind> {
+            let kinds = |top: f64| -> Vec<FindingKind> {
                 check(&of(quantity, &up_to(top)))
                     .0
                     .iter()
@@ -40,7 +40,7 @@ fn values_beyond_any_desk_are_impossible_and_those_at_its_edge_are_not() {
                     .collect()
             };
             assert_eq!(kinds(limit), [], "{quantity}");
-            assert_eq!(kinds(1.01 * limit), [Kind::Impossible], "{quantity}");
+            assert_eq!(kinds(1.01 * limit), [FindingKind::Impossible], "{quantity}");
         }
     }
 }
@@ -54,7 +54,7 @@ fn missing_values_are_told_with_their_line_and_left_out() {
     assert_eq!(found.len(), 1);
     assert_eq!(
         (found[0].kind, found[0].severity),
-        (Kind::DropOut, Severity::Fault)
+        (FindingKind::DropOut, Severity::Fault)
     );
     assert!(
         found[0]
@@ -102,7 +102,10 @@ fn a_motion_jumps_if_it_leaves_both_neighbours_by_six_large_steps() {
         told[0].what
     );
     assert!(told[0].what.contains("at 0.500 s"), "{}", told[0].what);
-    assert_eq!((told[0].kind, bad), (Kind::Impossible, vec![500..501]));
+    assert_eq!(
+        (told[0].kind, bad),
+        (FindingKind::Impossible, vec![500..501])
+    );
 }
 
 #[test]
@@ -213,7 +216,7 @@ fn two_visits_of_three_samples_or_one_plateau_of_eight_are_clipping() {
     let (told, bad) = check(&of(Quantity::Force, &cut(1.0, 2, 3)));
     assert_eq!(
         (told[0].kind, bad),
-        (Kind::Clipping, vec![100..103, 300..303])
+        (FindingKind::Clipping, vec![100..103, 300..303])
     );
     assert!(
         told[0].what.contains("6 samples stand at") && told[0].what.contains("first at 0.100 s")

@@ -2,7 +2,7 @@
 
 use super::{
     hum::without_hum,
-    verdict::{Finding, Kind, Severity},
+    verdict::{Finding, FindingKind, Severity},
 };
 use crate::{
     description::{Axis, Quantity},
@@ -94,7 +94,7 @@ pub(super) fn check(
                 format!("its delay cannot be told: it shares no {how} with the accelerometer");
             findings.push(Finding::of_file(
                 &file,
-                Kind::Delay,
+                FindingKind::Delay,
                 Severity::Note,
                 what,
                 "tap the surface a few times at start and end",
@@ -114,7 +114,7 @@ pub(super) fn check(
         };
         findings.push(Finding::of_file(
             &file,
-            Kind::Delay,
+            FindingKind::Delay,
             severity,
             what,
             "start all devices by one trigger, or give `start_s`",

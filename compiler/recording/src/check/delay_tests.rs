@@ -111,7 +111,7 @@ fn a_force_that_shows_the_vibration_late_is_corrected_with_a_warning_from_eight_
     assert!(delays.is_empty());
     assert_eq!(
         (findings[0].kind, findings[0].severity),
-        (Kind::Delay, Severity::Note)
+        (FindingKind::Delay, Severity::Note)
     );
     assert!(findings[0].what.contains("shares no vibration"));
 }

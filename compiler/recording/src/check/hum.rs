@@ -1,6 +1,6 @@
 //! Mains hum: a steady line at 50 or 60 Hz while the tool is in the air.
 
-use super::verdict::{Finding, Kind, Severity};
+use super::verdict::{Finding, FindingKind, Severity};
 use crate::{
     description::Quantity,
     reader::Recording,
@@ -96,7 +96,7 @@ pub(super) fn check(recording: &Recording, aligned: &Aligned, timeline: &Timelin
                 findings.push(Finding::of_channel(
                     &channel.file,
                     &channel.label,
-                    Kind::Hum,
+                    FindingKind::Hum,
                     Severity::Warning,
                     what,
                     "shield the cable and ground the tool",

@@ -1,7 +1,7 @@
 //! Channels that are not what they are said to be: one value throughout, the values of another channel, a
 //! clock, or a unit that the column's own name contradicts.
 
-use super::verdict::{Finding, Kind, Severity};
+use super::verdict::{Finding, FindingKind, Severity};
 use crate::{
     channel::Channel,
     description::{self, Column, Meaning, Quantity, Unit, meaning},
@@ -42,7 +42,7 @@ pub(super) fn check(recording: &Recording) -> (Vec<bool>, Vec<Finding>) {
             } else {
                 "look for a loose cable or a sensor that was not started, and check `column`"
             };
-            findings.push(of(Kind::Dead, severity, what, remedy));
+            findings.push(of(FindingKind::Dead, severity, what, remedy));
             continue;
         }
         if let Some(severity) = died(recording, &dead, channel)
@@ -55,7 +55,7 @@ pub(super) fn check(recording: &Recording) -> (Vec<bool>, Vec<Finding>) {
                 Unit::si(channel.quantity)
             );
             let remedy = "look for a loose cable or a sensor that stopped; the stretch is left out";
-            findings.push(of(Kind::DropOut, severity, what, remedy));
+            findings.push(of(FindingKind::DropOut, severity, what, remedy));
         }
         let copied = recording.channels[..index]
             .iter()
@@ -66,7 +66,7 @@ pub(super) fn check(recording: &Recording) -> (Vec<bool>, Vec<Finding>) {
                 original.label
             );
             let remedy = "check `column` and the program that wrote the file";
-            findings.push(of(Kind::Mislabelled, Severity::Fault, what, remedy));
+            findings.push(of(FindingKind::Mislabelled, Severity::Fault, what, remedy));
         }
     }
     let described = recording
@@ -85,7 +85,7 @@ pub(super) fn check(recording: &Recording) -> (Vec<bool>, Vec<Finding>) {
             );
             let remedy =
                 "remove the channel from recording.toml; name it under `clock` if it is the time";
-            findings.push(of(Kind::Mislabelled, Severity::Fault, what, remedy));
+            findings.push(of(FindingKind::Mislabelled, Severity::Fault, what, remedy));
         }
         findings.extend(contradiction(described).map(|(kind, what)| {
             of(
@@ -189,7 +189,7 @@ fn counter(channel: &Channel, described: &description::Channel) -> Option<&'stat
 }
 
 /// Finds a contradiction between the name of a column and its description.
-fn contradiction(described: &description::Channel) -> Option<(Kind, String)> {
+fn contradiction(described: &description::Channel) -> Option<(FindingKind, String)> {
     let Column::Name(name) = &described.column else {
         return None;
     };
@@ -201,14 +201,14 @@ fn contradiction(described: &description::Channel) -> Option<(Kind, String)> {
             "mislabelled: its column {name:?} says {quantity}, recording.toml says {}",
             described.quantity
         );
-        return Some((Kind::Mislabelled, what));
+        return Some((FindingKind::Mislabelled, what));
     }
     let unit = unit.filter(|unit| described.scale == 1.0 && unit.to_si != described.unit.to_si)?;
     let what = format!(
         "wrong unit: its column {name:?} says {}, recording.toml says {}",
         unit.name, described.unit.name
     );
-    Some((Kind::Unit, what))
+    Some((FindingKind::Unit, what))
 }
 
 #[cfg(test)]

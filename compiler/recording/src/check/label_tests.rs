@@ -136,7 +136,7 @@ fn a_copy_is_the_same_quantity_sample_by_sample_and_not_short() {
         accel(&noise),
         of(Quantity::Acceleration, Axis::Y, &noise),
     ]));
-    assert_eq!((found.len(), found[0].kind), (1, Kind::Mislabelled));
+    assert_eq!((found.len(), found[0].kind), (1, FindingKind::Mislabelled));
     assert!(
         found[0].what.contains("the values of acceleration x"),
         "{}",
@@ -191,7 +191,7 @@ fn milliseconds_of_a_slow_clock_are_told_from_rows() {
     let (_, found) = check(&test_recordings::recording(vec![channel]));
     assert_eq!(
         (found[0].kind, found[0].severity),
-        (Kind::Mislabelled, Severity::Fault)
+        (FindingKind::Mislabelled, Severity::Fault)
     );
     assert!(
         found[0]
@@ -210,10 +210,13 @@ fn the_name_of_a_column_contradicts_another_quantity_or_another_unit() {
         contradiction(&said).map(|(kind, _)| kind)
     };
     assert_eq!(told("accel_x (g)", "g", 1.0), None);
-    assert_eq!(told("accel_x (g)", "m/s^2", 1.0), Some(Kind::Unit));
+    assert_eq!(told("accel_x (g)", "m/s^2", 1.0), Some(FindingKind::Unit));
     assert_eq!(told("accel_x (g)", "m/s^2", 9.81), None);
     assert_eq!(told("accel_x", "m/s^2", 1.0), None);
-    assert_eq!(told("force_x (N)", "m/s^2", 1.0), Some(Kind::Mislabelled));
+    assert_eq!(
+        told("force_x (N)", "m/s^2", 1.0),
+        Some(FindingKind::Mislabelled)
+    );
     assert_eq!(told("banana", "m/s^2", 1.0), None);
     assert!(contradiction(&described(Quantity::Force, Axis::Z)).is_none());
 }

@@ -8,7 +8,7 @@ mod scale;
 mod verdict;
 
 pub use scale::{LOADS_N, SPEEDS_MM_S};
-pub use verdict::{Checked, Finding, Kind, Severity};
+pub use verdict::{Checked, Finding, FindingKind, Severity};
 
 use crate::{
     description::{Axis, Meaning, Quantity, meaning},
@@ -118,11 +118,11 @@ fn clocks(recording: &Recording) -> Vec<Finding> {
                 file.clock_unit
             );
             let remedy = "correct `clock_unit` in recording.toml, or rename the column";
-            findings.push(of(Kind::Unit, Severity::Warning, what, remedy));
+            findings.push(of(FindingKind::Unit, Severity::Warning, what, remedy));
         }
         for remark in &clock.remarks {
             findings.push(of(
-                Kind::File,
+                FindingKind::File,
                 Severity::Warning,
                 remark.what.clone(),
                 remark.remedy,
@@ -135,7 +135,7 @@ fn clocks(recording: &Recording) -> Vec<Finding> {
                 clock.gaps, clock.gap_s
             );
             findings.push(of(
-                Kind::DropOut,
+                FindingKind::DropOut,
                 Severity::Fault,
                 what,
                 "the stretches are left out; look for a full buffer or a loose cable",
@@ -146,7 +146,7 @@ fn clocks(recording: &Recording) -> Vec<Finding> {
         {
             let what = format!("its clock runs {ppm:+.0} ppm off the stated rate");
             findings.push(of(
-                Kind::Drift,
+                FindingKind::Drift,
                 Severity::Note,
                 what,
                 "nothing: the clock is believed",
@@ -156,7 +156,7 @@ fn clocks(recording: &Recording) -> Vec<Finding> {
         if clock.jitter_s > NOTED_JITTER * period_s && period_s > 0.0 {
             let what = format!("its clock jitters by {:.1} ms RMS", 1e3 * clock.jitter_s);
             findings.push(of(
-                Kind::Drift,
+                FindingKind::Drift,
                 Severity::Warning,
                 what,
                 "stamp samples where they are taken, not where they arrive",
@@ -164,7 +164,12 @@ fn clocks(recording: &Recording) -> Vec<Finding> {
         }
         if clock.shortened {
             let what = "is longer than memory may hold; its end is checked, not used".to_owned();
-            findings.push(of(Kind::Short, Severity::Note, what, "split the recording"));
+            findings.push(of(
+                FindingKind::Short,
+                Severity::Note,
+                what,
+                "split the recording",
+            ));
         }
     }
     findings
@@ -184,7 +189,7 @@ fn gravity(recording: &Recording, aligned: &Aligned) -> Option<Finding> {
         Finding::of_channel(
             "",
             "acceleration",
-            Kind::Gravity,
+            FindingKind::Gravity,
             Severity::Good,
             what,
             "nothing",
@@ -201,7 +206,7 @@ fn contact(timeline: &Timeline) -> Option<Finding> {
         Some(Finding::of_channel(
             "",
             "force z",
-            Kind::Contact,
+            FindingKind::Contact,
             severity,
             what,
             remedy,

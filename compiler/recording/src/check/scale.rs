@@ -2,7 +2,7 @@
 
 use super::{
     delay::{motion, vibration},
-    verdict::{Finding, Kind, Severity},
+    verdict::{Finding, FindingKind, Severity},
 };
 use crate::{
     description::{Axis, GRAVITY_M_S2, Quantity, Unit},
@@ -136,7 +136,7 @@ fn unchecked_scale(recording: &Recording) -> Option<Finding> {
     Some(Finding::of_channel(
         &channel.file,
         &quantity.to_string(),
-        Kind::Gravity,
+        FindingKind::Gravity,
         Severity::Note,
         "its scale cannot be checked: it shows no gravity, and no motion or force that another channel has".into(),
         "look up unit and range of the sensor, or record three axes that show gravity",
@@ -180,7 +180,7 @@ fn finding(recording: &Recording, quantity: Quantity, factor: f64, by: &str) -> 
     Finding::of_channel(
         file,
         &quantity.to_string(),
-        Kind::Unit,
+        FindingKind::Unit,
         Severity::Fault,
         what,
         &remedy,

@@ -57,13 +57,13 @@ fn no_gravity_is_told_of_an_accelerometer_with_a_dead_axis() {
         checked
             .findings
             .iter()
-            .any(|f| f.kind == Kind::Gravity && f.severity == Severity::Good)
+            .any(|f| f.kind == FindingKind::Gravity && f.severity == Severity::Good)
     };
     assert!(tells(&around(2, 0.0)));
     assert!(!tells(&[0.0; 3000]));
 }
 
-fn said(change: impl Fn(&mut FileClock)) -> Vec<(Kind, Severity, String)> {
+fn said(change: impl Fn(&mut FileClock)) -> Vec<(FindingKind, Severity, String)> {
     let mut recording = test_recordings::recording(vec![test_recordings::channel(
         Quantity::Force,
         Axis::Z,
@@ -99,7 +99,10 @@ fn drift_is_noted_beyond_five_hundred_parts_in_a_million() {
         let off = |ppm: f64| said(|c| c.clock_hz = Some(1000.0 * (1.0 + 1e-6 * sign * ppm)));
         assert_eq!(off(499.0), []);
         let found = off(501.0);
-        assert_eq!((found[0].0, found[0].1), (Kind::Drift, Severity::Note));
+        assert_eq!(
+            (found[0].0, found[0].1),
+            (FindingKind::Drift, Severity::Note)
+        );
         let told = if sign > 0.0 { "+501 ppm" } else { "-501 ppm" };
         assert!(found[0].2.contains(told), "{found:?}");
     }
@@ -117,7 +120,10 @@ fn drift_is_noted_beyond_five_hundred_parts_in_a_million() {
 fn jitter_is_a_warning_beyond_three_periods_of_the_clock() {
     assert_eq!(said(|c| c.jitter_s = 0.0029), []);
     let found = said(|c| c.jitter_s = 0.0031);
-    assert_eq!((found[0].0, found[0].1), (Kind::Drift, Severity::Warning));
+    assert_eq!(
+        (found[0].0, found[0].1),
+        (FindingKind::Drift, Severity::Warning)
+    );
     assert!(found[0].2.contains("by 3.1 ms"), "{found:?}");
     assert_eq!(
         said(|c| {
@@ -135,13 +141,19 @@ fn gaps_and_files_that_were_shortened_are_told() {
         c.shortened = true;
     });
     assert_eq!(found.len(), 2);
-    assert_eq!((found[0].0, found[0].1), (Kind::DropOut, Severity::Fault));
+    assert_eq!(
+        (found[0].0, found[0].1),
+        (FindingKind::DropOut, Severity::Fault)
+    );
     assert!(
         found[0]
             .2
             .contains("2 gaps, 0.250 s in all, the first before line 77"),
         "{found:?}"
     );
-    assert_eq!((found[1].0, found[1].1), (Kind::Short, Severity::Note));
+    assert_eq!(
+        (found[1].0, found[1].1),
+        (FindingKind::Short, Severity::Note)
+    );
     assert_eq!(said(|c| c.gaps = 1).len(), 1);
 }

@@ -20,7 +20,7 @@ pub enum Severity {
 /// Subject of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Kind {
+pub enum FindingKind {
     /// Values beyond what the sensor can give.
     Clipping,
     /// Missing or held values.
@@ -57,7 +57,7 @@ pub struct Finding {
     /// Channel, empty where it is about the file.
     pub channel: String,
     /// Its subject.
-    pub kind: Kind,
+    pub kind: FindingKind,
     /// Its severity.
     pub severity: Severity,
     /// Description of the finding.
@@ -70,7 +70,7 @@ impl Finding {
     pub(crate) fn of_channel(
         file: &str,
         channel: &str,
-        kind: Kind,
+        kind: FindingKind,
         severity: Severity,
         what: String,
         remedy: &str,
@@ -87,7 +87,7 @@ impl Finding {
 
     pub(crate) fn of_file(
         file: &str,
-        kind: Kind,
+        kind: FindingKind,
         severity: Severity,
         what: String,
         remedy: &str,
@@ -170,7 +170,7 @@ impl fmt::Display for Checked {
             let is_dead = self
                 .findings
                 .iter()
-                .any(|x| x.kind == Kind::Dead && x.file == *file && x.channel == *channel);
+                .any(|x| x.kind == FindingKind::Dead && x.file == *file && x.channel == *channel);
             let verdict = match of.map(|x| x.severity).max() {
                 None if is_dead => "does not move",
                 None => "good",
@@ -193,7 +193,11 @@ impl Checked {
         self.at_least(Severity::Fault).filter(|finding| {
             matches!(
                 finding.kind,
-                Kind::Unit | Kind::Contact | Kind::Impossible | Kind::Dead | Kind::Mislabelled
+                FindingKind::Unit
+                    | FindingKind::Contact
+                    | FindingKind::Impossible
+                    | FindingKind::Dead
+                    | FindingKind::Mislabelled
             )
         })
     }

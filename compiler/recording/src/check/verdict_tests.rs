@@ -2,7 +2,7 @@
 
 use super::*;
 
-fn finding(file: &str, channel: &str, kind: Kind, severity: Severity) -> Finding {
+fn finding(file: &str, channel: &str, kind: FindingKind, severity: Severity) -> Finding {
     Finding::of_channel(file, channel, kind, severity, "it is so".into(), "do this")
 }
 
@@ -31,7 +31,7 @@ fn verdicts(findings: Vec<Finding>) -> Vec<String> {
 #[test]
 fn a_channel_is_as_bad_as_the_worst_of_its_own_and_of_its_files_findings() {
     use Severity::{Fault, Good, Note, Warning};
-    let of = |file, channel, severity| finding(file, channel, Kind::Hum, severity);
+    let of = |file, channel, severity| finding(file, channel, FindingKind::Hum, severity);
     assert_eq!(verdicts(vec![]), ["good"; 3]);
     assert_eq!(
         verdicts(vec![of("a", "x", Note), of("b", "x", Good)]),
@@ -45,14 +45,15 @@ fn a_channel_is_as_bad_as_the_worst_of_its_own_and_of_its_files_findings() {
         verdicts(vec![of("a", "", Warning), of("a", "y", Fault)]),
         ["usable with care", "faulty", "good"]
     );
-    let dead = finding("a", "y", Kind::Dead, Note);
+    let dead = finding("a", "y", FindingKind::Dead, Note);
     assert_eq!(verdicts(vec![dead]), ["good", "does not move", "good"]);
     assert_eq!(verdicts(vec![of("a", "y", Note)]), ["good"; 3]);
 }
 
 #[test]
 fn a_finding_names_its_place_and_a_remedy_unless_all_is_good() {
-    let text = |file, channel, severity| finding(file, channel, Kind::Hum, severity).to_string();
+    let text =
+        |file, channel, severity| finding(file, channel, FindingKind::Hum, severity).to_string();
     assert_eq!(text("a", "x", Severity::Good), "good     a, x: it is so");
     assert_eq!(
         text("", "x", Severity::Note),
@@ -69,14 +70,14 @@ fn a_finding_names_its_place_and_a_remedy_unless_all_is_good() {
 fn the_worst_the_stopping_and_the_late_are_picked() {
     assert_eq!(checked(vec![]).worst(), Severity::Good);
     let kinds = [
-        (Kind::Unit, true),
-        (Kind::Contact, true),
-        (Kind::Impossible, true),
-        (Kind::Dead, true),
-        (Kind::Mislabelled, true),
-        (Kind::Clipping, false),
-        (Kind::DropOut, false),
-        (Kind::Delay, false),
+        (FindingKind::Unit, true),
+        (FindingKind::Contact, true),
+        (FindingKind::Impossible, true),
+        (FindingKind::Dead, true),
+        (FindingKind::Mislabelled, true),
+        (FindingKind::Clipping, false),
+        (FindingKind::DropOut, false),
+        (FindingKind::Delay, false),
     ];
     for (kind, stops) in kinds {
         let fault = checked(vec![finding("a", "x", kind, Severity::Fault)]);

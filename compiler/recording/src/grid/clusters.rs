@@ -8,14 +8,14 @@ const STEEPNESS: f64 = 0.15;
 const STEPS: usize = 30;
 
 /// Speed and force in parts of their largest, and height.
-type Place = [f64; 3];
+type ClusterPoint = [f64; 3];
 
 /// Centres of at most `count` clusters, mm/s and N. The first ones are far apart, and Lloyd's steps move them to the
 /// middle of their segments.
 pub(super) fn centres(strokes: &Segments, segments: &[&Segment], count: usize) -> Vec<(f64, f64)> {
     let largest = |pick: fn(&Segment) -> f64| strokes.segments.iter().map(pick).fold(0.0, f64::max);
     let (speed, force) = (largest(|s| s.speed_mm_s), largest(|s| s.force_n));
-    let points: Vec<(Place, f64)> = segments
+    let points: Vec<(ClusterPoint, f64)> = segments
         .iter()
         .map(|s| {
             let height = STEEPNESS * ln_level(strokes, s);
@@ -23,7 +23,7 @@ pub(super) fn centres(strokes: &Segments, segments: &[&Segment], count: usize) -
             (place, s.length as f64)
         })
         .collect();
-    let mean = |points: &mut dyn Iterator<Item = &(Place, f64)>| {
+    let mean = |points: &mut dyn Iterator<Item = &(ClusterPoint, f64)>| {
         let (mut sum, mut total) = ([0.0; 3], 0.0);
         for (place, weight) in points {
             total += weight;
@@ -33,15 +33,16 @@ pub(super) fn centres(strokes: &Segments, segments: &[&Segment], count: usize) -
         }
         (total > 0.0).then(|| sum.map(|x| x / total))
     };
-    let distance =
-        |p: &Place, c: &Place| -> f64 { p.iter().zip(c).map(|(x, y)| (x - y).powi(2)).sum() };
-    let nearest = |p: &Place, all: &[Place]| {
+    let distance = |p: &ClusterPoint, c: &ClusterPoint| -> f64 {
+        p.iter().zip(c).map(|(x, y)| (x - y).powi(2)).sum()
+    };
+    let nearest = |p: &ClusterPoint, all: &[ClusterPoint]| {
         let distances = all.iter().map(|c| distance(p, c)).enumerate();
         distances
             .min_by(|a, b| a.1.total_cmp(&b.1))
             .unwrap_or((0, 0.0))
     };
-    let mut found: Vec<Place> = mean(&mut points.iter()).into_iter().collect();
+    let mut found: Vec<ClusterPoint> = mean(&mut points.iter()).into_iter().collect();
     while found.len() < count {
         let farthest = points
             .iter()
@@ -54,7 +55,7 @@ pub(super) fn centres(strokes: &Segments, segments: &[&Segment], count: usize) -
     }
     for _ in 0..STEPS {
         let own: Vec<usize> = points.iter().map(|(p, _)| nearest(p, &found).0).collect();
-        let next: Vec<Place> = (0..found.len())
+        let next: Vec<ClusterPoint> = (0..found.len())
             .map(|n| {
                 let mut near = points
                     .iter()

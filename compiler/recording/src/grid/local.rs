@@ -26,7 +26,7 @@ const EXPONENTS: [f64; 2] = [-1.0, 4.0];
 
 /// A segment, ready to be regressed.
 #[derive(Debug, Clone)]
-struct Row {
+struct RegressionRow {
     place: [f64; 2],
     weight: f64,
     /// Power at every frequency and of every band, noise included.
@@ -34,7 +34,7 @@ struct Row {
     bands: Vec<f64>,
 }
 
-impl Row {
+impl RegressionRow {
     /// Its weight at a place, Gaussian of a width.
     fn near(&self, place: [f64; 2], width: f64) -> f64 {
         let away = [0, 1].map(|axis| self.place[axis] - place[axis]);
@@ -46,7 +46,7 @@ impl Row {
 /// The segments of a recording, in coordinates of unit variance.
 #[derive(Debug, Clone)]
 pub(super) struct Local {
-    rows: Vec<Row>,
+    rows: Vec<RegressionRow>,
     /// Power of the sensors' noise at every frequency and of every band.
     noise: Vec<f64>,
     noise_bands: Vec<f64>,
@@ -64,14 +64,14 @@ fn coordinates(speed_mm_s: f64, force_n: f64) -> [f64; 2] {
 }
 
 /// A segment near a place, the way to it, and its weight in samples.
-type Near<'a> = (&'a Row, [f64; 2], f64);
+type Near<'a> = (&'a RegressionRow, [f64; 2], f64);
 
 impl Local {
     /// Fits the segments, under the sensors' noise.
     pub(super) fn new(strokes: &Segments, segments: &[&Segment]) -> Self {
-        let mut rows: Vec<Row> = segments
+        let mut rows: Vec<RegressionRow> = segments
             .iter()
-            .map(|segment| Row {
+            .map(|segment| RegressionRow {
                 place: coordinates(segment.speed_mm_s, segment.force_n),
                 weight: segment.length as f64,
                 power: segment.power.clone(),

@@ -58,7 +58,7 @@ pub(super) struct Gap {
 
 /// Fit of a clock to its stamps.
 #[derive(Debug, Clone)]
-pub(super) struct Seen {
+pub(super) struct ClockFit {
     /// The steady clock that fits best, over rows and missing rows.
     pub clock: Clock,
     /// RMS distance from it, s.
@@ -68,7 +68,7 @@ pub(super) struct Seen {
 }
 
 /// Follows the clock of a whole file.
-pub(super) fn follow(path: &Path, column: usize, unit_s: f64) -> Result<Seen, Fault> {
+pub(super) fn follow(path: &Path, column: usize, unit_s: f64) -> Result<ClockFit, Fault> {
     let mut follower = Follower::default();
     rows(path, &[column], &mut |line, row| {
         follower
@@ -263,7 +263,7 @@ impl Follower {
         Ok(())
     }
 
-    fn finish(mut self) -> Result<Seen, Fault> {
+    fn finish(mut self) -> Result<ClockFit, Fault> {
         if self.rows < 2 {
             return Err(Fault::new("has fewer than two rows", remedy::TOO_LITTLE));
         }
@@ -275,7 +275,7 @@ impl Follower {
         };
         self.judge(true)?;
         let (clock, jitter_s) = self.fit.fitted(steps.period);
-        Ok(Seen {
+        Ok(ClockFit {
             clock,
             jitter_s,
             gaps: self.gaps,
@@ -329,7 +329,7 @@ mod laws;
 mod tests {
     use super::*;
 
-    fn seen(stamps: &[f64]) -> Result<Seen, String> {
+    fn seen(stamps: &[f64]) -> Result<ClockFit, String> {
         super::laws::seen(stamps.iter().copied())
     }
 

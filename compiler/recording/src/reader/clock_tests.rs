@@ -4,7 +4,7 @@ use super::*;
 use crate::test_recordings::near;
 
 /// Fit of the clock to these stamps.
-pub(super) fn seen(stamps: impl IntoIterator<Item = f64>) -> Result<Seen, String> {
+pub(super) fn seen(stamps: impl IntoIterator<Item = f64>) -> Result<ClockFit, String> {
     let mut follower = Follower::default();
     for (line, at_s) in (2..).zip(stamps) {
         follower

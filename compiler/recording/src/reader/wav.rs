@@ -72,7 +72,7 @@ impl Wav {
 
 /// Outcome of parsing a header.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Found {
+pub enum ParsedHeader {
     /// All of it.
     Whole(Wav),
     /// The file ends before the values.
@@ -85,9 +85,9 @@ pub enum Found {
 ///
 /// # Errors
 /// What the reader says.
-pub fn read_header<R: Read + Seek>(file: &mut R) -> io::Result<Found> {
+pub fn read_header<R: Read + Seek>(file: &mut R) -> io::Result<ParsedHeader> {
     const REMEDY: &str = "save it as a WAV of 16, 24 or 32 bit integers, or of 32 or 64 bit floats";
-    let refused = |what: String| Ok(Found::Refused(what, REMEDY));
+    let refused = |what: String| Ok(ParsedHeader::Refused(what, REMEDY));
     let length = file.seek(SeekFrom::End(0))?;
     file.seek(SeekFrom::Start(0))?;
     let mut start = [0; 12];
@@ -105,7 +105,7 @@ pub fn read_header<R: Read + Seek>(file: &mut R) -> io::Result<Found> {
         return refused("is none of a WAV: it does not begin with RIFF and WAVE".into());
     }
     if read < 12 {
-        return Ok(Found::Cut);
+        return Ok(ParsedHeader::Cut);
     }
     let (mut format, mut long) = (None, None);
     let mut at = 12;
@@ -113,7 +113,7 @@ pub fn read_header<R: Read + Seek>(file: &mut R) -> io::Result<Found> {
         let mut head = [0; 8];
         file.seek(SeekFrom::Start(at))?;
         if fill(file, &mut head)? < 8 {
-            return Ok(Found::Cut);
+            return Ok(ParsedHeader::Cut);
         }
         let size = u64::from(u32::from_le_bytes([head[4], head[5], head[6], head[7]]));
         let body = at + 8;
@@ -123,7 +123,7 @@ pub fn read_header<R: Read + Seek>(file: &mut R) -> io::Result<Found> {
                     return refused("has values before their format".into());
                 };
                 let stated = long.filter(|_| is_long).unwrap_or(size);
-                return Ok(Found::Whole(Wav {
+                return Ok(ParsedHeader::Whole(Wav {
                     begin: body,
                     stated,
                     ..format
@@ -136,7 +136,7 @@ pub fn read_header<R: Read + Seek>(file: &mut R) -> io::Result<Found> {
                 }
                 let mut bytes = vec![0; size as usize];
                 if fill(file, &mut bytes)? < bytes.len() {
-                    return Ok(Found::Cut);
+                    return Ok(ParsedHeader::Cut);
                 }
                 match parse(&bytes) {
                     Ok(wav) => format = Some(wav),
@@ -155,7 +155,7 @@ pub fn read_header<R: Read + Seek>(file: &mut R) -> io::Result<Found> {
         // Chunks begin at even places.
         at = body + size + size % 2;
         if at > length {
-            return Ok(Found::Cut);
+            return Ok(ParsedHeader::Cut);
         }
     }
 }
@@ -224,12 +224,12 @@ fn fill(file: &mut impl Read, buffer: &mut [u8]) -> io::Result<usize> {
 fn open(path: &Path) -> Result<(BufReader<File>, Wav, u64, Vec<Remark>), Fault> {
     let mut file = BufReader::new(file::open(path)?);
     let wav = match read_header(&mut file).map_err(unreadable(path))? {
-        Found::Whole(wav) => wav,
-        Found::Cut => {
+        ParsedHeader::Whole(wav) => wav,
+        ParsedHeader::Cut => {
             let what = "is cut: it ends within its header";
             return Err(Fault::new(what, "copy or record it again").at(path));
         }
-        Found::Refused(what, remedy) => return Err(Fault::new(what, remedy).at(path)),
+        ParsedHeader::Refused(what, remedy) => return Err(Fault::new(what, remedy).at(path)),
     };
     let end = file.seek(SeekFrom::End(0)).map_err(unreadable(path))?;
     let there = end.saturating_sub(wav.begin);

@@ -155,8 +155,8 @@ fn a_header_may_be_cut_anywhere() {
     ]);
     for length in 0..56 {
         let found = read_header(&mut Cursor::new(&whole[..length])).expect("in memory");
-        assert_eq!(found, Found::Cut, "{length}");
+        assert_eq!(found, ParsedHeader::Cut, "{length}");
     }
     let found = read_header(&mut Cursor::new(&whole[..56])).expect("in memory");
-    assert!(matches!(found, Found::Whole(wav) if wav.begin == 56 && wav.stated == 6));
+    assert!(matches!(found, ParsedHeader::Whole(wav) if wav.begin == 56 && wav.stated == 6));
 }

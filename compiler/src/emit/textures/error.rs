@@ -4,7 +4,7 @@ use super::conversion::Conversion;
 use asperity_formats::FormatError;
 use asperity_io::{
     diagnostic::Diagnostic,
-    input::{InputProblem, Kind},
+    input::{InputKind, InputProblem},
     shown::counted,
 };
 use std::path::PathBuf;
@@ -48,7 +48,7 @@ pub enum TexturesProblem {
     #[error("neither an asset (.asp) nor a library (.aspl)")]
     WrongKind,
     /// It is larger than any asset, or than a library with a scene.
-    #[error("{bytes} bytes, but an asset or a library has at most {limit}", limit = Kind::Asset.max_bytes())]
+    #[error("{bytes} bytes, but an asset or a library has at most {limit}", limit = InputKind::Asset.max_bytes())]
     TooLarge {
         /// Its size; of a pipe, what was read of it.
         bytes: u64,

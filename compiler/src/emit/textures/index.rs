@@ -15,19 +15,19 @@ pub(super) struct Index {
     /// Where the scene lies, if there is one.
     pub(super) scene: Option<Range<u64>>,
     /// In ascending order of name.
-    places: Vec<Place>,
+    locations: Vec<TextureLocation>,
 }
 
 /// Where one texture lies.
 #[derive(Debug, Clone)]
-pub(super) struct Place {
+pub(super) struct TextureLocation {
     pub(super) name: String,
     pub(super) offset: u64,
     pub(super) len: u64,
     haptic_len: u32,
 }
 
-impl Place {
+impl TextureLocation {
     /// Checks what the index states of an asset.
     ///
     /// # Errors
@@ -52,7 +52,7 @@ impl Index {
         let parsed = LibraryIndex::parse(bytes)?;
         #[cfg(test)]
         ENTRIES_READ.with(|read| read.set(read.get() + parsed.len()));
-        let place = |entry: Entry<'_>| Place {
+        let location = |entry: Entry<'_>| TextureLocation {
             name: entry.name.to_owned(),
             offset: entry.offset,
             len: u64::from(entry.len),
@@ -62,34 +62,34 @@ impl Index {
             version: parsed.version(),
             total_len: parsed.total_len(),
             scene: parsed.scene_range(),
-            places: parsed.entries().map(place).collect(),
+            locations: parsed.entries().map(location).collect(),
         })
     }
 
     /// Number of textures.
     pub(super) fn len(&self) -> usize {
-        self.places.len()
+        self.locations.len()
     }
 
     /// The texture at an index.
-    pub(super) fn get(&self, index: usize) -> Option<&Place> {
-        self.places.get(index)
+    pub(super) fn get(&self, index: usize) -> Option<&TextureLocation> {
+        self.locations.get(index)
     }
 
     /// Neighbouring textures, of which there are so many.
-    pub(super) fn places(&self, range: Range<usize>) -> &[Place] {
-        self.places.get(range).unwrap_or_default()
+    pub(super) fn locations(&self, range: Range<usize>) -> &[TextureLocation] {
+        self.locations.get(range).unwrap_or_default()
     }
 
     /// The index of a name; a binary search.
     pub(super) fn find(&self, name: &str) -> Option<usize> {
-        let by_name = |place: &Place| place.name.as_str().cmp(name);
-        self.places.binary_search_by(by_name).ok()
+        let by_name = |location: &TextureLocation| location.name.as_str().cmp(name);
+        self.locations.binary_search_by(by_name).ok()
     }
 
     /// The names in order.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
-        self.places.iter().map(|place| place.name.as_str())
+        self.locations.iter().map(|location| location.name.as_str())
     }
 }
 

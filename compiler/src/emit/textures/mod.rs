@@ -25,7 +25,7 @@ pub use error::{TexturesError, TexturesProblem};
 pub(crate) use index::ENTRIES_READ;
 
 use asperity_formats::{Asset, FormatError, SceneSurface, library};
-use asperity_io::input::{self, Format, InputProblem, Kind, Opened};
+use asperity_io::input::{self, Format, InputKind, InputProblem, Opened};
 use asperity_io::shown::suggestion;
 use index::Index;
 use rayon::prelude::*;
@@ -90,7 +90,7 @@ impl Textures {
     /// # Errors
     /// As [`Textures::open`].
     pub fn from_reader(path: &Path, reader: impl Read) -> Result<Self, TexturesError> {
-        let bytes = input::to_end(reader, Kind::Asset).map_err(|e| refused(path, e.into()))?;
+        let bytes = input::to_end(reader, InputKind::Asset).map_err(|e| refused(path, e.into()))?;
         Self::with(path, Box::new(Cursor::new(bytes)))
     }
 
@@ -99,7 +99,7 @@ impl Textures {
     /// # Errors
     /// As [`Textures::open`].
     pub fn from_bytes(path: &Path, bytes: Vec<u8>) -> Result<Self, TexturesError> {
-        input::admit(&bytes, Kind::Asset).map_err(|e| refused(path, e.into()))?;
+        input::admit(&bytes, InputKind::Asset).map_err(|e| refused(path, e.into()))?;
         Self::with(path, Box::new(Cursor::new(bytes)))
     }
 
@@ -362,9 +362,9 @@ impl Textures {
             return Ok(vec![each(&mut start(), asset.name(), &asset)]);
         }
         let (some, bytes) = self.together(from)?;
-        let places = self.index().map_or(&[][..], |index| index.places(some));
-        let first = places.first().map_or(0, |place| place.offset);
-        let found: Vec<Result<R, FormatError>> = places
+        let locations = self.index().map_or(&[][..], |index| index.locations(some));
+        let first = locations.first().map_or(0, |location| location.offset);
+        let found: Vec<Result<R, FormatError>> = locations
             .par_iter()
             .enumerate()
             .with_min_len(16)
@@ -375,7 +375,7 @@ impl Textures {
                 Ok(each(kept, &place.name, &Asset::parse(bytes)?))
             })
             .collect();
-        let named = found.into_iter().zip(places);
+        let named = found.into_iter().zip(locations);
         named
             .map(|(found, place)| found.map_err(|e| self.error(Some(&place.name), e.into())))
             .collect()
@@ -402,7 +402,7 @@ impl Textures {
         len: u64,
         name: Option<&str>,
     ) -> Result<Vec<u8>, TexturesError> {
-        if len > Kind::Asset.max_bytes() {
+        if len > InputKind::Asset.max_bytes() {
             return Err(self.error(name, TexturesProblem::TooLarge { bytes: len }));
         }
         part(&mut *self.bytes, offset, len).map_err(|problem| self.error(name, problem.into()))

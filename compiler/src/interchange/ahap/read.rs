@@ -49,11 +49,11 @@ pub(crate) fn read(text: &str) -> Result<Track, Fault> {
         phase_from_beginning: true,
         ..Track::default()
     };
-    let mut room = Room::default();
+    let mut totals = Totals::default();
     for (n, item) in document.pattern.0.iter().enumerate() {
         let at = |key: &str| format!("Pattern[{n}].Event{key}");
         if let Some(event) = &item.event {
-            add(event, at, &controls, &mut room, &mut track, &mut notes)?;
+            add(event, at, &controls, &mut totals, &mut track, &mut notes)?;
         } else if item.parameter.is_none() && item.parameter_curve.is_none() {
             notes.add(Note::NoContent, || format!("Pattern[{n}]"));
         }
@@ -194,7 +194,7 @@ fn curve(
 
 /// Totals so far, which are limited.
 #[derive(Default)]
-struct Room {
+struct Totals {
     span_s: f64,
     controlled: usize,
 }
@@ -204,7 +204,7 @@ fn add(
     event: &Event,
     at: impl Fn(&str) -> String,
     controls: &Controls,
-    room: &mut Room,
+    totals: &mut Totals,
     track: &mut Track,
     notes: &mut Notes,
 ) -> Result<(), Fault> {
@@ -232,19 +232,19 @@ fn add(
         return Ok(());
     }
     let end = end(event, begin, &at, notes)?;
-    room.span_s += end - begin;
+    totals.span_s += end - begin;
     let too_many =
         |what, found, limit| Err(too_many(what, found, limit).field(at(".EventDuration")));
-    if room.span_s > MAX_EVENTS_S {
+    if totals.span_s > MAX_EVENTS_S {
         let what = "seconds of continuous events in all";
-        return too_many(what, room.span_s, MAX_EVENTS_S);
+        return too_many(what, totals.span_s, MAX_EVENTS_S);
     }
     let inside =
         controls.intensity.times(begin, end).len() + controls.sharpness.times(begin, end).len();
-    room.controlled += inside;
-    if room.controlled > MAX_CONTROLLED {
+    totals.controlled += inside;
+    if totals.controlled > MAX_CONTROLLED {
         let what = "points of controls within events";
-        return too_many(what, room.controlled as f64, MAX_CONTROLLED as f64);
+        return too_many(what, totals.controlled as f64, MAX_CONTROLLED as f64);
     }
     let steps = ((end - begin) / STEP_S).ceil() as usize;
     let grid = (0..=steps).map(|step| (begin + step as f64 * STEP_S).min(end));

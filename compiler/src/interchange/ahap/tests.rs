@@ -167,7 +167,7 @@ fn generated_files_sound_as_a_player_plays_them() {
         let file = folder.path().join("generated.ahap");
         fs::write(&file, pattern.to_string()).unwrap();
         let options = effects::tests::options();
-        let imported = effects::tests::import(&file, effects::Kind::Ahap, &options).unwrap();
+        let imported = effects::tests::import(&file, effects::EffectsKind::Ahap, &options).unwrap();
         let stroke = imported
             .whole
             .grid

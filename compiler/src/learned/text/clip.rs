@@ -8,7 +8,7 @@ use super::encoder::{Encoded, TextEncoder, failed, signature, unit};
 use crate::learned::inference::Backend;
 use asperity_io::{
     diagnostic::Fault,
-    input::{self, Kind},
+    input::{self, InputKind},
 };
 use asperity_model::CLIP_MERGES;
 use asperity_nn::{Dim, ElementType, Port, Session, Tensor};
@@ -48,7 +48,7 @@ impl Clip {
             ))
         })?;
         let network = |message: String| failed(format_args!("{}: {message}", file.display()));
-        let bytes = input::read(&file, Kind::TextEncoder)
+        let bytes = input::read(&file, InputKind::TextEncoder)
             .map_err(|problem| network(format!("{problem}; {}", problem.remedy())))?;
         Self::new(backend.session(bytes.into()).map_err(network)?)
     }

@@ -1,16 +1,16 @@
 //! The check of one row by itself. It goes on after a fault, so that all faults are reported at once.
 
 use super::{
-    entry::{Options, Origin, Place},
+    entry::{EntryLocation, Options, Origin},
     missing::{is_error, is_nothing},
-    row::{Field, Row, Value},
-    values::{Checker, OPTIONS, Stated, of_type},
+    row::{Field, ManifestRow, Value},
+    values::{Checker, OPTIONS, PartialOptions, of_type},
 };
 use crate::{
     name,
     passes::reduce::Fidelity,
     pipeline::Request,
-    sources::{self, Kind, Operand, Registry, prompt::title},
+    sources::{self, Operand, Registry, SourceKind, prompt::title},
     views::preview,
 };
 use asperity_io::{
@@ -52,7 +52,7 @@ pub(super) struct Draft {
     pub(super) name: String,
     pub(super) origin: Origin<Reference>,
     pub(super) options: Options,
-    pub(super) place: Place,
+    pub(super) location: EntryLocation,
 }
 
 /// A texture by name, with the line where it stands.
@@ -66,8 +66,12 @@ pub(super) struct Reference {
 impl Checker<'_> {
     /// The options of `[defaults]`, and what only the first file may state: model, text encoder,
     /// back end.
-    pub(super) fn defaults(&mut self, row: &Row, first: bool) -> (Stated, Vec<(String, String)>) {
-        let mut stated = Stated::default();
+    pub(super) fn defaults(
+        &mut self,
+        row: &ManifestRow,
+        first: bool,
+    ) -> (PartialOptions, Vec<(String, String)>) {
+        let mut stated = PartialOptions::default();
         let mut setup = Vec::new();
         for field in &row.fields {
             if self.option(field, row.untyped, &mut stated) {
@@ -93,9 +97,13 @@ impl Checker<'_> {
     }
 
     /// The name of one row, where it has one, and its texture, unless a fault keeps it from being one.
-    pub(super) fn row(&mut self, row: &Row, defaults: &Stated) -> (Option<String>, Option<Draft>) {
+    pub(super) fn row(
+        &mut self,
+        row: &ManifestRow,
+        defaults: &PartialOptions,
+    ) -> (Option<String>, Option<Draft>) {
         let before = self.errors.len();
-        let mut stated = Stated::default();
+        let mut stated = PartialOptions::default();
         let mut sources = Vec::new();
         let mut name = None;
         for field in &row.fields {
@@ -140,8 +148,8 @@ impl Checker<'_> {
         let (Some(origin), Some(named), true) = (origin, &name, self.errors.len() == before) else {
             return (name, None);
         };
-        let options = options(&all, &self.goes_with(&origin));
-        let place = Place {
+        let options = options(&all, &self.source_defaults(&origin));
+        let location = EntryLocation {
             file: self.file.file.clone(),
             line: row.line,
         };
@@ -149,7 +157,7 @@ impl Checker<'_> {
             name: named.clone(),
             origin,
             options,
-            place,
+            location,
         };
         (name, Some(draft))
     }
@@ -193,7 +201,7 @@ impl Checker<'_> {
     }
 
     /// Returns true if an unknown key looks like a misspelt origin.
-    fn has_misspelt_origin(&self, row: &Row) -> bool {
+    fn has_misspelt_origin(&self, row: &ManifestRow) -> bool {
         let mut strangers = row
             .fields
             .iter()
@@ -221,9 +229,9 @@ impl Checker<'_> {
     /// A source that the registry knows.
     fn source(
         &mut self,
-        kind: Kind,
+        kind: SourceKind,
         field: &Field,
-        row: &Row,
+        row: &ManifestRow,
         seed: Option<u64>,
     ) -> Option<Origin<Reference>> {
         let key = kind.key;
@@ -253,7 +261,7 @@ impl Checker<'_> {
                 _ => self.path(field, key, text, false)?,
             },
         };
-        let stated = sources::Stated {
+        let entry = sources::SourceEntry {
             text,
             path: &path,
             texture,
@@ -261,7 +269,7 @@ impl Checker<'_> {
                 .filter(|_| !kind.refuses.contains(&"seed"))
                 .unwrap_or(0),
         };
-        match (kind.open)(&stated) {
+        match (kind.open)(&entry) {
             Ok(source) => Some(Origin::Source { key, source }),
             Err(failure) => {
                 let fault = Fault::new(&failure, failure.remedy());
@@ -271,7 +279,12 @@ impl Checker<'_> {
         }
     }
 
-    fn origin(&mut self, field: &Field, row: &Row, seed: Option<u64>) -> Option<Origin<Reference>> {
+    fn origin(
+        &mut self,
+        field: &Field,
+        row: &ManifestRow,
+        seed: Option<u64>,
+    ) -> Option<Origin<Reference>> {
         if let Some(kind) = self.registry.get(&field.key) {
             return self.source(*kind, field, row, seed);
         }
@@ -366,16 +379,16 @@ impl Checker<'_> {
     }
 
     /// The key of a source, and how a texture of it may be made.
-    fn goes_with(&self, origin: &Origin<Reference>) -> GoesWith {
+    fn source_defaults(&self, origin: &Origin<Reference>) -> SourceDefaults {
         let key = origin.key();
         match self.registry.get(key) {
-            Some(kind) => GoesWith {
+            Some(kind) => SourceDefaults {
                 key,
                 refuses: kind.refuses,
                 fidelity: kind.fidelity,
                 preview: kind.preview,
             },
-            None => GoesWith {
+            None => SourceDefaults {
                 key,
                 refuses: &["texture", "seed"],
                 fidelity: Fidelity::Auto,
@@ -385,8 +398,8 @@ impl Checker<'_> {
     }
 
     /// Refuses keys of a row that its source does not take.
-    fn placed(&mut self, row: &Row, origin: &Origin<Reference>) {
-        let GoesWith { key, refuses, .. } = self.goes_with(origin);
+    fn placed(&mut self, row: &ManifestRow, origin: &Origin<Reference>) {
+        let SourceDefaults { key, refuses, .. } = self.source_defaults(origin);
         for field in &row.fields {
             if refuses.contains(&field.key.as_str()) {
                 self.misplaced(field.line, &field.key, key);
@@ -396,7 +409,7 @@ impl Checker<'_> {
 }
 
 /// Defaults of a source, and the keys that it refuses.
-struct GoesWith {
+struct SourceDefaults {
     key: &'static str,
     refuses: &'static [&'static str],
     fidelity: Fidelity,
@@ -411,7 +424,7 @@ fn unreadable(error: io::Error) -> InputProblem {
 }
 
 /// Fills in the defaults of the commands. Options of `[defaults]` apply to the textures that can have them.
-fn options(stated: &Stated, of: &GoesWith) -> Options {
+fn options(stated: &PartialOptions, of: &SourceDefaults) -> Options {
     let takes = |key: &str| !of.refuses.contains(&key);
     let fidelity = stated.fidelity.filter(|_| takes("fidelity"));
     Options {

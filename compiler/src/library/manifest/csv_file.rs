@@ -4,7 +4,7 @@
 use super::{
     cells::{Broken, Record, Records},
     check::{is_key, own_key},
-    row::{MAX_ROWS, Row, Sheet, Value, put},
+    row::{MAX_ROWS, ManifestRow, Sheet, Value, put},
 };
 use crate::sources::Registry;
 
@@ -62,7 +62,7 @@ fn keys(header: Record, registry: &Registry) -> Result<Vec<String>, Broken> {
     Ok(keys)
 }
 
-fn row(keys: &[String], record: Record) -> Result<Row, Broken> {
+fn row(keys: &[String], record: Record) -> Result<ManifestRow, Broken> {
     let Record { line, cells } = record;
     let filled = |cell: &String| !cell.trim().is_empty();
     let stated = cells.iter().rposition(filled).map_or(0, |last| last + 1);
@@ -86,7 +86,7 @@ fn row(keys: &[String], record: Record) -> Result<Row, Broken> {
         }
         put(&mut fields, key, line, Value::Text(cell)).map_err(|message| (line, message))?;
     }
-    Ok(Row {
+    Ok(ManifestRow {
         line,
         fields,
         untyped: true,
@@ -121,7 +121,8 @@ mod tests {
     fn blank_rows_and_columns_without_a_name_are_passed_over() {
         let plain = parse("name,prompt\noak,rough oak\nice,wet ice\n").unwrap();
         let names = |sheet: &Sheet| -> Vec<Vec<Value>> {
-            let row = |row: &Row| row.fields.iter().map(|field| field.value.clone()).collect();
+            let row =
+                |row: &ManifestRow| row.fields.iter().map(|field| field.value.clone()).collect();
             sheet.rows.iter().map(row).collect()
         };
         for text in [

@@ -9,20 +9,20 @@ use std::{fmt, path::Path, sync::Arc};
 
 /// Where an entry stands.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Place {
+pub struct EntryLocation {
     /// The file.
     pub file: Arc<Path>,
     /// Line, 1-based.
     pub line: usize,
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for EntryLocation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}", self.file.display(), self.line)
     }
 }
 
-impl Place {
+impl EntryLocation {
     /// A fault in the same file.
     pub(super) fn fault(&self, line: usize, key: &str, fault: Fault) -> Fault {
         fault.at(&*self.file).line(line as u64).field(key)
@@ -39,7 +39,7 @@ pub struct Entry {
     /// Build options.
     pub options: Options,
     /// Where it stands.
-    pub place: Place,
+    pub location: EntryLocation,
 }
 
 impl Entry {
@@ -47,7 +47,7 @@ impl Entry {
     pub(crate) fn fault(&self, cause: &dyn Diagnostic) -> Fault {
         let field = format!("{:?}: {}", self.name, self.origin.key());
         let fault = Fault::new(cause, cause.remedy());
-        self.place.fault(self.place.line, &field, fault)
+        self.location.fault(self.location.line, &field, fault)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{
     check::own_key,
-    row::{Field, MAX_FAULTS, MAX_ROWS, Row, Sheet, Value, put},
+    row::{Field, MAX_FAULTS, MAX_ROWS, ManifestRow, Sheet, Value, put},
 };
 use crate::sources::Registry;
 use asperity_io::input::{json_fault, lenient_json};
@@ -141,7 +141,7 @@ impl<'t> Iterator for Values<'t> {
 }
 
 /// Parses an object, whose keys may be dotted.
-fn row(content: &str, line: usize, registry: &Registry) -> Result<Row, (usize, String)> {
+fn row(content: &str, line: usize, registry: &Registry) -> Result<ManifestRow, (usize, String)> {
     let json: Json = serde_json::from_str(content).map_err(|error| {
         // The line within the value is said by the line of the text.
         let within = format!(" at line {} column", error.line());
@@ -159,7 +159,7 @@ fn row(content: &str, line: usize, registry: &Registry) -> Result<Row, (usize, S
         put(&mut fields, &own_key(&key, registry), line, value)
             .map_err(|message| (line, message))?;
     }
-    Ok(Row {
+    Ok(ManifestRow {
         line,
         fields,
         untyped: false,
@@ -293,7 +293,7 @@ mod tests {
         let fields = |text: &str| {
             let (sheet, wrong) = parse(text);
             assert!(wrong.is_empty(), "{text}: {wrong:?}");
-            let row = |row: &Row| -> Vec<(String, Value)> {
+            let row = |row: &ManifestRow| -> Vec<(String, Value)> {
                 row.fields
                     .iter()
                     .map(|f| (f.key.clone(), f.value.clone()))

@@ -29,7 +29,7 @@ mod row;
 mod toml_file;
 mod values;
 
-pub use entry::{Entry, Options, Origin, Place};
+pub use entry::{Entry, EntryLocation, Options, Origin};
 pub use read::{Manifest, Setup, is_scene};
 
 pub(in crate::library) use graph::order;

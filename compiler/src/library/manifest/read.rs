@@ -3,17 +3,17 @@
 use super::{
     check::{Draft, Reference},
     csv_file,
-    entry::{Entry, Origin, Place},
+    entry::{Entry, EntryLocation, Origin},
     graph::order,
     json_file,
     row::{Field, MAX_FAULTS, MAX_ROWS, Sheet, Value},
     toml_file,
-    values::{Checker, Stated, of_type, unknown_key},
+    values::{Checker, PartialOptions, of_type, unknown_key},
 };
 use crate::sources::Registry;
 use asperity_io::{
     diagnostic::Fault,
-    input::{self, Kind, Reach},
+    input::{self, InputKind, Reach},
     shown::suggestion,
 };
 use std::{
@@ -120,17 +120,17 @@ impl Manifest {
             scene,
             ..Reader::default()
         };
-        reader.take(file, text, &Stated::default());
+        reader.take(file, text, &PartialOptions::default());
         reader.manifest(file)
     }
 }
 
 /// The most that the kinds of manifests may have: TOML is read with the lines of all values.
-fn kind(file: &Path) -> Kind {
+fn kind(file: &Path) -> InputKind {
     if syntax(file) == Some(Syntax::Toml) {
-        Kind::Scene
+        InputKind::Scene
     } else {
-        Kind::Manifest
+        InputKind::Manifest
     }
 }
 
@@ -188,7 +188,7 @@ struct Reader {
     scene: bool,
     drafts: Vec<Draft>,
     /// Names of all rows, of those with a fault, too.
-    names: Vec<(String, Place)>,
+    names: Vec<(String, EntryLocation)>,
     /// Rows of all files so far.
     rows: usize,
     errors: Vec<Fault>,
@@ -201,7 +201,7 @@ struct Reader {
 }
 
 impl Reader {
-    fn take(&mut self, file: &Path, text: &str, outer: &Stated) {
+    fn take(&mut self, file: &Path, text: &str, outer: &PartialOptions) {
         let Some(sheet) = self.sheet(file, text) else {
             return;
         };
@@ -210,12 +210,12 @@ impl Reader {
         self.open
             .push(fs::canonicalize(file).unwrap_or_else(|_| file.to_owned()));
         let folder = file.parent().unwrap_or(Path::new(""));
-        let place = Place {
+        let location = EntryLocation {
             file: Arc::from(file),
             line: 1,
         };
         let mut checker = Checker {
-            file: &place,
+            file: &location,
             folder,
             reach: &self.reach,
             errors: &mut self.errors,
@@ -263,15 +263,15 @@ impl Reader {
             }
             let (name, draft) = checker.row(row, &stated);
             let line = row.line;
-            let place = || Place {
+            let location = || EntryLocation {
                 line,
-                ..place.clone()
+                ..location.clone()
             };
-            self.names.extend(name.map(|name| (name, place())));
+            self.names.extend(name.map(|name| (name, location())));
             self.drafts.extend(draft);
         }
         for field in &sheet.include {
-            self.include(field, &place, folder, &stated);
+            self.include(field, &location, folder, &stated);
         }
         self.open.pop();
     }
@@ -316,9 +316,15 @@ impl Reader {
         }
     }
 
-    fn include(&mut self, field: &Field, place: &Place, folder: &Path, stated: &Stated) {
+    fn include(
+        &mut self,
+        field: &Field,
+        location: &EntryLocation,
+        folder: &Path,
+        stated: &PartialOptions,
+    ) {
         let mut checker = Checker {
-            file: place,
+            file: location,
             folder,
             reach: &self.reach,
             errors: &mut self.errors,
@@ -372,12 +378,13 @@ impl Reader {
         // Stable: of two textures of one name, the first stays first.
         names.sort_by(|a, b| a.0.cmp(&b.0));
         for pair in names.windows(2) {
-            if let [(first, other), (second, place)] = pair
+            if let [(first, other), (second, location)] = pair
                 && first == second
             {
                 let what = format!("{second:?} is also the name of the texture at {other}");
                 let fault = Fault::new(what, "rename one of them");
-                self.errors.push(place.fault(place.line, "name", fault));
+                self.errors
+                    .push(location.fault(location.line, "name", fault));
             }
         }
         drafts.sort_by(|a, b| a.name.cmp(&b.name));
@@ -389,12 +396,12 @@ impl Reader {
             .collect();
         let mut entries = Vec::with_capacity(drafts.len());
         for draft in drafts {
-            if let Some(origin) = self.resolved(draft.origin, &draft.place, &index, complete) {
+            if let Some(origin) = self.resolved(draft.origin, &draft.location, &index, complete) {
                 entries.push(Entry {
                     name: draft.name,
                     origin,
                     options: draft.options,
-                    place: draft.place,
+                    location: draft.location,
                 });
             }
         }
@@ -405,11 +412,13 @@ impl Reader {
                 .iter()
                 .map(|&i| format!("{:?}", entries[i].name))
                 .collect();
-            let Entry { place, origin, .. } = &entries[cycle[0]];
+            let Entry {
+                location, origin, ..
+            } = &entries[cycle[0]];
             let what = format!("the texture depends on itself: {}", names.join(" → "));
             let fault = Fault::new(what, "give one of them another source");
             self.errors
-                .push(place.fault(place.line, origin.key(), fault));
+                .push(location.fault(location.line, origin.key(), fault));
         }
         if entries.is_empty() && self.errors.is_empty() {
             let remedy = "add a [[texture]] with a name and a prompt";
@@ -435,7 +444,7 @@ impl Reader {
     fn resolved(
         &mut self,
         origin: Origin<Reference>,
-        place: &Place,
+        location: &EntryLocation,
         index: &HashMap<String, usize>,
         complete: bool,
     ) -> Option<Origin> {
@@ -450,7 +459,7 @@ impl Reader {
                 let fault = Fault::new(what, "add it, or correct the name")
                     .suggest(suggestion(&reference.name, names));
                 self.errors
-                    .push(place.fault(reference.line, reference.key, fault));
+                    .push(location.fault(reference.line, reference.key, fault));
             }
             found
         })

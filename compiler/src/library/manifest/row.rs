@@ -93,7 +93,7 @@ pub(super) struct Field {
 
 /// The fields of a texture or of the defaults.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Row {
+pub(super) struct ManifestRow {
     pub(super) line: usize,
     pub(super) fields: Vec<Field>,
     /// True if the syntax has texts only, which then also stand for numbers.
@@ -103,10 +103,10 @@ pub(super) struct Row {
 /// A file before it is checked.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Sheet {
-    pub(super) defaults: Option<Row>,
+    pub(super) defaults: Option<ManifestRow>,
     /// Paths of other manifests.
     pub(super) include: Vec<Field>,
-    pub(super) rows: Vec<Row>,
+    pub(super) rows: Vec<ManifestRow>,
     /// Keys at the top that no manifest has, or whose value is of another type.
     pub(super) wrong: Vec<Field>,
 }

@@ -1,6 +1,6 @@
 //! Rows of a TOML file, with their lines.
 
-use super::row::{Field, Row, Sheet, Value};
+use super::row::{Field, ManifestRow, Sheet, Value};
 use asperity_io::toml_error::TomlError;
 use toml::de::{DeTable, DeValue};
 
@@ -27,7 +27,7 @@ pub(super) fn parse(text: &str) -> Result<Sheet, TomlError> {
     for field in fields(top.get_ref(), &lines) {
         match (field.key.as_str(), field.value) {
             ("defaults", Value::Table(fields)) => {
-                sheet.defaults = Some(Row {
+                sheet.defaults = Some(ManifestRow {
                     line: field.line,
                     fields,
                     untyped: false,
@@ -38,7 +38,7 @@ pub(super) fn parse(text: &str) -> Result<Sheet, TomlError> {
             ("texture", Value::List(items)) => {
                 for item in items {
                     match item.value {
-                        Value::Table(fields) => sheet.rows.push(Row {
+                        Value::Table(fields) => sheet.rows.push(ManifestRow {
                             line: item.line,
                             fields,
                             untyped: false,

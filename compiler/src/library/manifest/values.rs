@@ -2,7 +2,7 @@
 //! goes on.
 
 use super::{
-    entry::Place,
+    entry::EntryLocation,
     row::{Field, Value},
 };
 use crate::{
@@ -31,7 +31,7 @@ const LOUDNESS_DB: (f64, f64) = (-120.0, 0.0);
 
 /// Options as far as a row or the defaults state them.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Stated {
+pub(super) struct PartialOptions {
     pub(super) seed: Option<u64>,
     pub(super) fidelity: Option<Fidelity>,
     pub(super) rate_hz: Option<f64>,
@@ -41,7 +41,7 @@ pub(super) struct Stated {
     pub(super) edit: Option<Edit>,
 }
 
-impl Stated {
+impl PartialOptions {
     /// These, and `outer` where they say nothing.
     pub(super) fn within(&self, outer: &Self) -> Self {
         Self {
@@ -57,7 +57,7 @@ impl Stated {
 
 /// Takes the faults of a file.
 pub(super) struct Checker<'a> {
-    pub(super) file: &'a Place,
+    pub(super) file: &'a EntryLocation,
     pub(super) folder: &'a Path,
     pub(super) reach: &'a Reach,
     pub(super) errors: &'a mut Vec<Fault>,
@@ -190,7 +190,12 @@ impl Checker<'_> {
     }
 
     /// Reads an option. Returns true if the key is one.
-    pub(super) fn option(&mut self, field: &Field, untyped: bool, stated: &mut Stated) -> bool {
+    pub(super) fn option(
+        &mut self,
+        field: &Field,
+        untyped: bool,
+        stated: &mut PartialOptions,
+    ) -> bool {
         let key = field.key.as_str();
         match key {
             "seed" => stated.seed = self.whole(field, key, untyped),

@@ -3,7 +3,7 @@
 use asperity_texture::{
     model::{
         GridVertex, ModelGrid, Numerator,
-        mixture::{Field, Mixture, Place, places},
+        mixture::{BarycentricPoint, Field, Mixture, places},
     },
     signal::spectrum::{Angles, ErrorBand, rms_db},
 };
@@ -25,7 +25,7 @@ struct Compared {
     /// mm/s and N.
     at: (f64, f64),
     /// Where that is in the whole grid.
-    place: Place,
+    place: BarycentricPoint,
     /// Power spectrum, where it sounds.
     power: Option<Vec<f64>>,
 }
@@ -145,7 +145,11 @@ impl<'a> Reference<'a> {
 
     /// The triangle and the weights of every place in a grid. They are known where the grid has
     /// the triangles of the whole one.
-    pub(super) fn located(&self, grid: &ModelGrid, field: &Field<'_>) -> Option<Vec<Place>> {
+    pub(super) fn located(
+        &self,
+        grid: &ModelGrid,
+        field: &Field<'_>,
+    ) -> Option<Vec<BarycentricPoint>> {
         let positions = |grid: &ModelGrid| -> Vec<(f64, f64)> {
             let at = |vertex: &GridVertex| (vertex.speed_mm_s, vertex.force_n);
             grid.vertices.iter().map(at).collect()
@@ -168,7 +172,12 @@ impl<'a> Reference<'a> {
     }
 
     /// Distance of a mixture from the whole grid at a place, dB.
-    pub(super) fn distance(&self, index: usize, field: &Field<'_>, place: &Place) -> f64 {
+    pub(super) fn distance(
+        &self,
+        index: usize,
+        field: &Field<'_>,
+        place: &BarycentricPoint,
+    ) -> f64 {
         let mixture = field.mixture(place);
         match &self.places[index].power {
             // Only ordered frequencies give a stable filter.

@@ -8,7 +8,7 @@
 use super::budget::{Distances, Reference, Tally};
 use asperity_texture::model::{
     GridVertex, ModelGrid, mesh,
-    mixture::{Cosines, Field, Place},
+    mixture::{BarycentricPoint, Cosines, Field},
 };
 use std::rc::Rc;
 
@@ -49,7 +49,7 @@ fn fewer(grid: &ModelGrid, reference: &Reference<'_>) -> Option<ModelGrid> {
 struct State {
     grid: ModelGrid,
     cosines: Vec<Rc<Cosines>>,
-    located: Vec<Place>,
+    located: Vec<BarycentricPoint>,
     distances: Distances,
 }
 
@@ -101,9 +101,11 @@ impl State {
         let field = Field::with_cosines(&grid, &cosines);
         let mut distances = self.distances.0.clone();
         let mut located = self.located.clone();
-        let is_moved = |place: &Place| place.vertices.contains(&vertex);
+        let is_moved = |place: &BarycentricPoint| place.vertices.contains(&vertex);
         let mut tally = Tally::of(distances.len());
-        let stays = |(place, distance): (&Place, &f64)| is_moved(place) || tally.admits(*distance);
+        let stays = |(place, distance): (&BarycentricPoint, &f64)| {
+            is_moved(place) || tally.admits(*distance)
+        };
         if !located.iter().zip(&distances).all(stays) {
             return None;
         }

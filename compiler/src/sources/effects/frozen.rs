@@ -1,7 +1,7 @@
 //! Imports of `.haptic` and HJIF files are fixed to the bit: changes of code shared with other formats show here.
 
 use super::{
-    Kind,
+    EffectsKind,
     tests::{self, options},
 };
 use crate::interchange::{
@@ -147,15 +147,15 @@ fn hjif_file(draw: &mut Draw) -> Value {
 }
 
 /// Hashes of what the files of a format play, and of the textures of the first of them.
-fn hashes(kind: Kind, file: impl Fn(&mut Draw) -> Value) -> (u32, u32) {
+fn hashes(kind: EffectsKind, file: impl Fn(&mut Draw) -> Value) -> (u32, u32) {
     let folder = tempfile::tempdir().unwrap();
     let (mut played, mut compiled) = (Bits::default(), Bits::default());
     for seed in 0..FILES {
         let text = file(&mut Draw::new(seed)).to_string();
         let track = match kind {
-            Kind::Haptic => haptic::read(&text),
-            Kind::Hjif => hjif::read(&text),
-            Kind::Ahap => unreachable!("AHAP is held against a player instead"),
+            EffectsKind::Haptic => haptic::read(&text),
+            EffectsKind::Hjif => hjif::read(&text),
+            EffectsKind::Ahap => unreachable!("AHAP is held against a player instead"),
         };
         played.track(&track.unwrap_or_else(|fault| panic!("{fault}: {text}")));
         if seed < COMPILED {
@@ -171,12 +171,15 @@ fn hashes(kind: Kind, file: impl Fn(&mut Draw) -> Value) -> (u32, u32) {
 #[test]
 fn haptic_files_give_what_they_gave() {
     assert_eq!(
-        hashes(Kind::Haptic, haptic_file),
+        hashes(EffectsKind::Haptic, haptic_file),
         (360_784_425, 2_915_589_708)
     );
 }
 
 #[test]
 fn hjif_files_give_what_they_gave() {
-    assert_eq!(hashes(Kind::Hjif, hjif_file), (832_443_039, 3_113_750_556));
+    assert_eq!(
+        hashes(EffectsKind::Hjif, hjif_file),
+        (832_443_039, 3_113_750_556)
+    );
 }

@@ -5,7 +5,7 @@
 //! level follows from the accelerations that the user states for a full scale.
 //!
 //! ```
-//! use asperity::{driver, sources::{effects::{Effects, Kind, Options}, Tools}, pipeline::Request};
+//! use asperity::{driver, sources::{effects::{Effects, EffectsKind, Options}, Tools}, pipeline::Request};
 //!
 //! # let folder = tempfile::tempdir().expect("a temporary folder");
 //! // A file with a single transient.
@@ -13,7 +13,7 @@
 //! # std::fs::write(&file, r#"{"Version": 1.0, "Pattern": [{"Event": {"Time": 0.0, "EventType": "HapticTransient",
 //! #     "EventParameters": [{"ParameterID": "HapticIntensity", "ParameterValue": 1.0}]}}]}"#)
 //! #     .expect("a writable folder");
-//! let source = Effects { file, kind: Kind::Ahap, options: Options::default() };
+//! let source = Effects { file, kind: EffectsKind::Ahap, options: Options::default() };
 //! let compiled = driver::compile(&source, &Request::default(), &Tools::default())?;
 //! assert_eq!(compiled.texture.name, "click");
 //! assert_eq!(compiled.texture.taps.traces.len(), 1);
@@ -27,4 +27,4 @@ mod stroke;
 #[cfg(test)]
 pub(crate) mod tests;
 
-pub use source::{Effects, Kind, Options};
+pub use source::{Effects, EffectsKind, Options};

@@ -29,7 +29,7 @@ const REACH: f64 = 2.0;
 
 /// Format of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum EffectsKind {
     /// `.haptic` of NiceVibrations.
     Haptic,
     /// The Apple Haptic and Audio Pattern.
@@ -38,7 +38,7 @@ pub enum Kind {
     Hjif,
 }
 
-impl Kind {
+impl EffectsKind {
     /// All kinds, each with its format and its name.
     const ALL: [(Self, Format, &'static str); 3] = [
         (Self::Haptic, Format::Haptic, "haptic"),
@@ -106,7 +106,7 @@ pub struct Effects {
     /// The file.
     pub file: PathBuf,
     /// Its format.
-    pub kind: Kind,
+    pub kind: EffectsKind,
     /// Parameters that it lacks.
     pub options: Options,
 }
@@ -174,7 +174,7 @@ impl ManifestSource for Effects {
         Ok(parts
             .text(self.kind.name())
             .text(&options)
-            .file(&self.file, input::Kind::Effects)?)
+            .file(&self.file, input::InputKind::Effects)?)
     }
 }
 
@@ -183,18 +183,18 @@ impl Effects {
     fn track(&self, tools: &Tools<'_>) -> Result<(Track, u32), Fault> {
         let refused = |problem: InputProblem| Fault::from(problem).at(&self.file);
         let bytes = tools
-            .file(&self.file, input::Kind::Effects)
+            .file(&self.file, input::InputKind::Effects)
             .map_err(refused)?;
-        let (_, wanted, _) = Kind::ALL[self.kind as usize];
+        let (_, wanted, _) = EffectsKind::ALL[self.kind as usize];
         if let Some(format) = Format::of(&bytes).filter(|format| *format != wanted) {
             let wanted = wanted.name().into();
             return Err(refused(InputProblem::OtherFormat { format, wanted }));
         }
         let text = input::text(&bytes).map_err(refused)?;
         let track = match self.kind {
-            Kind::Haptic => haptic::read(text),
-            Kind::Ahap => ahap::read(text),
-            Kind::Hjif => hjif::read(text),
+            EffectsKind::Haptic => haptic::read(text),
+            EffectsKind::Ahap => ahap::read(text),
+            EffectsKind::Hjif => hjif::read(text),
         };
         let track = track.map_err(|fault| fault.at(&self.file))?;
         Ok((track, crc32fast::hash(&bytes)))
@@ -215,7 +215,7 @@ fn stem(file: &Path) -> String {
 fn texture(
     track: &Track,
     name: String,
-    kind: Kind,
+    kind: EffectsKind,
     options: &Options,
     warnings: &mut Vec<String>,
 ) -> Option<TextureModel> {

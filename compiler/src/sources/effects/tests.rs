@@ -24,7 +24,11 @@ pub(crate) fn options() -> Options {
 }
 
 /// Compiles a file under the name `back`.
-pub(crate) fn import(file: &Path, kind: Kind, options: &Options) -> Result<Compiled, Failure> {
+pub(crate) fn import(
+    file: &Path,
+    kind: EffectsKind,
+    options: &Options,
+) -> Result<Compiled, Failure> {
     let request = Request {
         name: Some("back".into()),
         ..Request::default()
@@ -38,7 +42,7 @@ pub(crate) fn import(file: &Path, kind: Kind, options: &Options) -> Result<Compi
 }
 
 /// Exports the built-in texture with known scales and imports it again.
-fn there_and_back(format: ClipFormat, kind: Kind) -> Compiled {
+fn there_and_back(format: ClipFormat, kind: EffectsKind) -> Compiled {
     let bytes = lower(&builtin::texture(), None).unwrap().bytes;
     let asset = Asset::parse(&bytes).unwrap();
     let scales = interchange::Options {
@@ -89,7 +93,7 @@ fn centroid_hz(model: &ArmaModel) -> f64 {
 
 #[test]
 fn a_curve_comes_back_with_its_spectrum() {
-    let back = at_the_stroke(Some(&there_and_back(ClipFormat::Hjif, Kind::Hjif)));
+    let back = at_the_stroke(Some(&there_and_back(ClipFormat::Hjif, EffectsKind::Hjif)));
     let source = at_the_stroke(None);
     let off_db = level_db(&back) - level_db(&source);
     assert!(off_db.abs() < 1.0, "{off_db} dB");
@@ -104,8 +108,8 @@ fn a_curve_comes_back_with_its_spectrum() {
 fn envelopes_come_back_with_level_and_mean_frequency() {
     let source = at_the_stroke(None);
     for (format, kind) in [
-        (ClipFormat::Haptic, Kind::Haptic),
-        (ClipFormat::Ahap, Kind::Ahap),
+        (ClipFormat::Haptic, EffectsKind::Haptic),
+        (ClipFormat::Ahap, EffectsKind::Ahap),
     ] {
         let back = at_the_stroke(Some(&there_and_back(format, kind)));
         let off_db = level_db(&back) - level_db(&source);
@@ -118,9 +122,9 @@ fn envelopes_come_back_with_level_and_mean_frequency() {
 #[test]
 fn taps_come_back_as_loud_as_they_were_and_slower_where_they_are_quieter() {
     for (format, kind) in [
-        (ClipFormat::Haptic, Kind::Haptic),
-        (ClipFormat::Ahap, Kind::Ahap),
-        (ClipFormat::Hjif, Kind::Hjif),
+        (ClipFormat::Haptic, EffectsKind::Haptic),
+        (ClipFormat::Ahap, EffectsKind::Ahap),
+        (ClipFormat::Hjif, EffectsKind::Hjif),
     ] {
         let imported = there_and_back(format, kind);
         let taps = &imported.whole.taps;
@@ -156,11 +160,11 @@ fn a_file_without_transients_gets_synthesised_taps_and_one_without_a_stroke_is_s
     };
     let humming = r#"{"time":0,"amplitude":0.5},{"time":1,"amplitude":0.5}"#;
     let file = write("hum.haptic", &haptic(humming));
-    let hum = import(&file, Kind::Haptic, &options()).unwrap();
+    let hum = import(&file, EffectsKind::Haptic, &options()).unwrap();
     assert!(hum.whole.provenance.taps_synthetic && hum.warnings[0].contains("synthesised"));
     let click = r#"{"time":0,"amplitude":0,"emphasis":{"amplitude":1,"frequency":0.5}}"#;
     let file = write("click.haptic", &haptic(click));
-    let click = import(&file, Kind::Haptic, &options()).unwrap();
+    let click = import(&file, EffectsKind::Haptic, &options()).unwrap();
     assert!(
         click.warnings[0].contains("does not vibrate"),
         "{:?}",
@@ -176,11 +180,11 @@ fn a_file_without_transients_gets_synthesised_taps_and_one_without_a_stroke_is_s
     );
     let silence = r#"{"time":0,"amplitude":0},{"time":1,"amplitude":0}"#;
     let file = write("silence.haptic", &haptic(silence));
-    let refused = import(&file, Kind::Haptic, &options()).unwrap_err();
+    let refused = import(&file, EffectsKind::Haptic, &options()).unwrap_err();
     assert!(
         refused.to_string().contains("no effect that sounds"),
         "{refused}"
     );
-    let refused = import(Path::new("/nonexistent"), Kind::Ahap, &options()).unwrap_err();
+    let refused = import(Path::new("/nonexistent"), EffectsKind::Ahap, &options()).unwrap_err();
     assert!(refused.to_string().contains("cannot read"), "{refused}");
 }

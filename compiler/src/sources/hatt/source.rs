@@ -12,7 +12,7 @@ use crate::{
 };
 use asperity_io::{
     diagnostic::{Failure, Fault},
-    input::{self, InputProblem, Kind},
+    input::{self, InputKind, InputProblem},
 };
 use asperity_texture::{model::TextureModel, signal::spectrum::ArmaModel};
 use std::{
@@ -127,7 +127,7 @@ impl Source for Hatt {
 impl ManifestSource for Hatt {
     fn key(&self, parts: Parts, _: &Tools<'_>) -> Result<Parts, Failure> {
         let parts = parts.part(&[self.complete_taps.into()]);
-        Ok(parts.file(&self.file, Kind::Hatt)?)
+        Ok(parts.file(&self.file, InputKind::Hatt)?)
     }
 }
 
@@ -149,12 +149,12 @@ impl Findings for Recomputed {
 /// # Errors
 /// [`Fault`] for a file that cannot be read or is too large.
 pub fn bytes(file: &Path) -> Result<Vec<u8>, Fault> {
-    input::read(file, Kind::Hatt).map_err(|problem| Fault::from(problem).at(file))
+    input::read(file, InputKind::Hatt).map_err(|problem| Fault::from(problem).at(file))
 }
 
 fn read(file: &Path, tools: &Tools<'_>) -> Result<(Material, TextureModel), Fault> {
     let source = tools
-        .file(file, Kind::Hatt)
+        .file(file, InputKind::Hatt)
         .map_err(|problem| Fault::from(problem).at(file))?;
     let material = material::parse(file, &source)?;
     let source_name = file.file_name().unwrap_or_default().to_string_lossy();

@@ -119,7 +119,7 @@ pub fn explain(editor: &LatentEditor<'_>, text: &str) -> Result<Explanation, Fau
         });
     let reading = editor.prompt_compiler().read(text);
     Ok(Explanation {
-        reading: reading.taken(),
+        reading: reading.interpretations(),
         phrase: reading.together(),
         words: effects.collect(),
     })
@@ -183,7 +183,10 @@ impl Explanation {
     /// A table for people: a row a word, a column a slider.
     #[must_use]
     pub fn text(&self) -> String {
-        let read = self.reading.iter().map(|taken| &taken.text);
+        let read = self
+            .reading
+            .iter()
+            .map(|interpretation| &interpretation.text);
         let words = self.words.iter().map(|effect| &effect.word).chain(read);
         let width = words.map(|word| word.chars().count()).max();
         let width = width.unwrap_or(0).clamp("together".len(), 32);

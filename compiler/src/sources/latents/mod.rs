@@ -27,6 +27,7 @@
 //! ```
 
 mod attribute_cache;
+mod edit;
 mod edited;
 mod encode;
 mod explain;
@@ -38,11 +39,11 @@ mod report;
 mod scale;
 mod solve;
 mod source;
-mod worded;
 
 pub use crate::edit_memory::{
     AXES, Axis, History, Ingredient, Latents, Memory, Origin, Sliders, Step, remembered,
 };
+pub use edit::{Edit, EditResult};
 pub use encode::{Encoded, Part, encode};
 pub use explain::{Explanation, WordEffect, explain};
 pub use fault::nothing_asked;
@@ -53,4 +54,3 @@ pub use mix::{Mix, MixOptions, MixPreview, MixReport};
 pub use report::attributes_line;
 pub use scale::Scale;
 pub use source::{FromLatents, decode};
-pub use worded::{Edit, Worded};

@@ -1,6 +1,6 @@
 //! Latents as a source: a blend, a composition, an edit, a recording that was encoded.
 
-use super::{Edit, LatentEditor, Part, Worded};
+use super::{Edit, EditResult, LatentEditor, Part};
 use crate::{
     edit_memory::{History, Ingredient, Latents, Memory, Origin, Step, damaged},
     learned::{Decoded, LearnedModel, friction, texture},
@@ -116,7 +116,7 @@ impl FromLatents {
         editor: &LatentEditor<'_>,
         edit: &Edit,
         request: &Request,
-    ) -> Result<Worded, Fault> {
+    ) -> Result<EditResult, Fault> {
         let done = editor.edit(&self.latents, edit, request)?;
         let step = Step::new(done.sliders, &self.latents);
         self.history.steps.push(match edit {

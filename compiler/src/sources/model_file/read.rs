@@ -7,7 +7,7 @@ use super::{
 use crate::{json::parsed, sources::Tools};
 use asperity_io::{
     diagnostic::Fault,
-    input::{self, Kind},
+    input::{self, InputKind},
 };
 use asperity_texture::model::TextureModel;
 use serde::Deserialize;
@@ -27,7 +27,7 @@ pub fn read(file: &Path) -> Result<(TextureModel, u32), Fault> {
 
 /// As [`read`], of a file that may have been given.
 pub(super) fn read_with(file: &Path, tools: &Tools<'_>) -> Result<(TextureModel, u32), Fault> {
-    let bytes = tools.file(file, Kind::Model);
+    let bytes = tools.file(file, InputKind::Model);
     let bytes = bytes.map_err(|problem| Fault::from(problem).at(file))?;
     let texture = from_json(&bytes).map_err(|fault| fault.at(file))?;
     Ok((texture, crc32fast::hash(&bytes)))

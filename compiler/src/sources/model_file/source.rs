@@ -7,7 +7,7 @@ use crate::{
     sources::{ManifestSource, Source, SourceOutput, Tools, key::Parts},
 };
 use asperity_io::diagnostic::Failure;
-use asperity_io::input::Kind;
+use asperity_io::input::InputKind;
 use std::path::PathBuf;
 
 /// A texture of one's own as JSON.
@@ -49,6 +49,6 @@ impl Source for ModelFile {
 
 impl ManifestSource for ModelFile {
     fn key(&self, parts: Parts, _: &Tools<'_>) -> Result<Parts, Failure> {
-        Ok(parts.file(&self.file, Kind::Model)?)
+        Ok(parts.file(&self.file, InputKind::Model)?)
     }
 }

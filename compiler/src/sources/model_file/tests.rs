@@ -7,7 +7,7 @@ use crate::{
     pipeline::Request,
     sources::{SourceOutput, Tools, builtin},
 };
-use asperity_io::{diagnostic::Fault, input::Kind};
+use asperity_io::{diagnostic::Fault, input::InputKind};
 use asperity_texture::model::{FrictionLaw, LawPoint, Numerator, TextureModel, defaults, mesh};
 use serde_json::{Value, json};
 
@@ -435,7 +435,7 @@ fn the_largest_model_fits_a_file() {
     use asperity_formats::limits::{MAX_ORDER, MAX_TAP_SAMPLES, MAX_TAPS, MAX_VERTICES};
     let number = 25;
     let bytes = MAX_VERTICES * (2 * MAX_ORDER + 8) * number + MAX_TAPS * MAX_TAP_SAMPLES * number;
-    assert!(10 * bytes as u64 <= Kind::Model.max_bytes(), "{bytes}");
+    assert!(10 * bytes as u64 <= InputKind::Model.max_bytes(), "{bytes}");
 }
 
 /// Claim: speeds in m/s, forces in mN or kN and levels far below what is felt are noted; those of a hand are not.

@@ -22,8 +22,8 @@ impl PromptCompiler {
             Certainty::Close if reading.sure < SURE => Certainty::Guess,
             certainty => certainty,
         };
-        let taken = |correction: &&Correction| reading.holds(&correction.taken);
-        match reading.correction.as_ref().filter(taken) {
+        let corrected = |correction: &&Correction| reading.holds(&correction.corrected);
+        match reading.correction.as_ref().filter(corrected) {
             Some(correction) if correction.doubtful => Certainty::Guess,
             Some(_) => certainty.min(Certainty::Close),
             None => certainty,

@@ -17,8 +17,11 @@ impl CompiledPrompt {
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         warnings.extend(self.understood.warning());
-        if let Some(Correction { said, taken, .. }) = &self.reading.correction {
-            warnings.push(format!("“{said}” is read as “{taken}”"));
+        if let Some(Correction {
+            said, corrected, ..
+        }) = &self.reading.correction
+        {
+            warnings.push(format!("“{said}” is read as “{corrected}”"));
         }
         warnings.extend(self.reading.numbers.iter().cloned());
         if let Some([first, last]) = self.reading.conflict {
@@ -163,7 +166,7 @@ impl Findings for CompiledPrompt {
             "taken_as": self.reading.text(),
             "named": self.reading.names,
             "left_out": self.reading.ignored,
-            "corrected": self.reading.correction.as_ref().map(|c| json!({ "said": c.said, "taken": c.taken })),
+            "corrected": self.reading.correction.as_ref().map(|c| json!({ "said": c.said, "taken": c.corrected })),
             "understood": self.understood.read,
             "not_understood": self.understood.unread,
             "gains": compiled.texture.gains,

@@ -4,7 +4,7 @@ use super::check;
 use crate::{
     passes::reduce::Fidelity,
     pipeline::{Pipeline, Request},
-    sources::{Kind, ManifestSource, Operand, Source, SourceOutput, Tools, key::Parts},
+    sources::{ManifestSource, Operand, Source, SourceKind, SourceOutput, Tools, key::Parts},
 };
 use asperity_io::diagnostic::Failure;
 use std::sync::Arc;
@@ -31,7 +31,7 @@ pub struct Picture {
 }
 
 /// `prompt` of a manifest.
-pub const KIND: Kind = Kind {
+pub const KIND: SourceKind = SourceKind {
     key: "prompt",
     operand: Operand::Text,
     open: |stated| {

@@ -11,7 +11,7 @@ use crate::{
     compiled::{Compiled, ErrorReference},
     passes::reduce::Fidelity,
     pipeline::{Pass, Pipeline, Request, Ringing},
-    sources::{Findings, Kind, ManifestSource, Operand, Source, SourceOutput, Tools, key},
+    sources::{Findings, ManifestSource, Operand, Source, SourceKind, SourceOutput, Tools, key},
 };
 use asperity_io::diagnostic::Failure;
 use asperity_plot::PlotError;
@@ -30,7 +30,7 @@ pub struct RecordingFolder {
 }
 
 /// `recording` of a manifest.
-pub const KIND: Kind = Kind {
+pub const KIND: SourceKind = SourceKind {
     key: "recording",
     operand: Operand::Folder,
     open: |stated| {

@@ -100,7 +100,7 @@ impl Gesture {
 
 /// Rendered sound.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Heard {
+pub struct RenderedSound {
     /// A mono WAV file of 16 bits at [`SOUND_HZ`].
     pub wav: Vec<u8>,
     /// Its time, s.
@@ -229,7 +229,7 @@ pub fn listen(
     session: &Gesture,
     rate_hz: Option<f32>,
     seed: u64,
-) -> Result<Heard, Fault> {
+) -> Result<RenderedSound, Fault> {
     let performed = perform(asset, session, rate_hz, seed)?;
     let rate_hz = performed.rate_hz;
     let pause = vec![0.0; (PAUSE_S * rate_hz).round() as usize];
@@ -254,7 +254,7 @@ pub fn listen(
         warnings.push("the strokes are silent: the texture does not vibrate".to_owned());
     }
     let samples = levelled(&[(&scraping, &strokes), (&tapping, &taps)]);
-    Ok(Heard {
+    Ok(RenderedSound {
         seconds: samples.len() as f64 / f64::from(SOUND_HZ),
         wav: wav(&samples).map_err(not_encoded)?,
         strokes,

@@ -9,7 +9,7 @@ fn heard(
     texture: &TextureModel,
     session: &Gesture,
     rate_hz: Option<f32>,
-) -> Result<(Heard, Vec<f64>), Fault> {
+) -> Result<(RenderedSound, Vec<f64>), Fault> {
     let bytes = lower(texture, None).unwrap().bytes;
     let asset = Asset::parse(&bytes).unwrap();
     let heard = listen(&asset, session, rate_hz, 1)?;

@@ -3,7 +3,7 @@
 use super::columns::INPUT_COLUMNS;
 use asperity_io::{
     diagnostic::Fault,
-    input::{InputProblem, Kind},
+    input::{InputKind, InputProblem},
     table::{Table, TableError, TableProblem, number},
 };
 use std::{
@@ -16,7 +16,7 @@ use std::{
 const TIME_TOLERANCE: f64 = 0.25;
 
 /// Row of a trajectory: time and position.
-pub(super) struct Row {
+pub(super) struct TrajectoryRow {
     pub(super) t_s: f64,
     pub(super) position_mm: [f64; 3],
 }
@@ -34,7 +34,7 @@ pub(super) struct Rows<'a, R> {
 impl<'a, R: Read> Rows<'a, R> {
     /// Reads the header.
     pub(super) fn new(file: &'a Path, input: R, rate_hz: f32) -> Result<Self, Fault> {
-        let left = Kind::Trajectory.max_bytes();
+        let left = InputKind::Trajectory.max_bytes();
         let table = Table::open(Bounded { input, left }, &|_| false);
         let table = table.map_err(|error| fault(file, error))?;
         let line = table.layout().header;
@@ -65,7 +65,7 @@ impl<'a, R: Read> Rows<'a, R> {
     }
 
     /// The next row, if there is one.
-    pub(super) fn next(&mut self) -> Result<Option<Row>, Fault> {
+    pub(super) fn next(&mut self) -> Result<Option<TrajectoryRow>, Fault> {
         let decimal_comma = self.table.layout().decimal_comma;
         let next = self.table.next_row();
         let Some(row) = next.map_err(|error| fault(self.file, error))? else {
@@ -111,7 +111,7 @@ impl<'a, R: Read> Rows<'a, R> {
             return Err(Fault::new(what, remedy).at(self.file).line(line));
         }
         self.row += 1;
-        Ok(Some(Row {
+        Ok(Some(TrajectoryRow {
             t_s,
             position_mm: [x, y, z],
         }))
@@ -127,7 +127,7 @@ struct Bounded<R> {
 impl<R: Read> Read for Bounded<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let len = self.input.read(buffer)?;
-        let kind = Kind::Trajectory;
+        let kind = InputKind::Trajectory;
         self.left = self
             .left
             .checked_sub(len as u64)

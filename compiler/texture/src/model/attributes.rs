@@ -45,7 +45,7 @@
 use crate::{
     model::{
         ModelGrid, TapBank, TextureModel, mesh,
-        mixture::{Field, Place},
+        mixture::{BarycentricPoint, Field},
     },
     signal::spectrum::{TraceBand, Vibration, VibrationBand},
 };
@@ -96,7 +96,7 @@ pub fn stroke(grid: &ModelGrid) -> (f64, f64) {
 
 /// The triangle of a grid at its [stated stroke](stroke), and the weights there.
 #[must_use]
-pub fn place(grid: &ModelGrid) -> Option<Place> {
+pub fn place(grid: &ModelGrid) -> Option<BarycentricPoint> {
     let (speed_mm_s, force_n) = stroke(grid);
     // Where a query lies takes no cosines.
     Field::with_cosines(grid, &[]).locate(speed_mm_s, force_n)
@@ -144,7 +144,7 @@ impl Meter {
         };
         let weights = place.weights;
         let vertices = [0, 1, 2];
-        let model = Field::new(&around).model(&Place { vertices, weights });
+        let model = Field::new(&around).model(&BarycentricPoint { vertices, weights });
         band.as_ref()?.vibration(&model)
     }
 

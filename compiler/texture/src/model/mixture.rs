@@ -39,7 +39,7 @@ use std::rc::Rc;
 
 /// A triangle, by its vertices, and the weights of a query in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub struct BarycentricPoint {
     /// Indices of the vertices.
     pub vertices: [usize; 3],
     /// Barycentric weights, not negative, of sum 1.
@@ -112,7 +112,7 @@ impl<'a> Field<'a> {
     /// The triangle whose smallest weight is largest, as the runtime chooses; `None` for a
     /// grid without a triangle that has an area.
     #[must_use]
-    pub fn locate(&self, speed_mm_s: f64, force_n: f64) -> Option<Place> {
+    pub fn locate(&self, speed_mm_s: f64, force_n: f64) -> Option<BarycentricPoint> {
         self.locate_among(&self.grid.triangles, speed_mm_s, force_n)
     }
 
@@ -122,7 +122,7 @@ impl<'a> Field<'a> {
         triangles: &[[usize; 3]],
         speed_mm_s: f64,
         force_n: f64,
-    ) -> Option<Place> {
+    ) -> Option<BarycentricPoint> {
         // A NaN counts as rest.
         let inside = |x: f64, max: f64| if x > 0.0 { x.min(max) } else { 0.0 };
         let (speed, force) = (
@@ -139,7 +139,7 @@ impl<'a> Field<'a> {
             .or_else(|| self.best(triangles.iter(), speed, force))?;
         let cut = weights.map(|w| w.max(0.0));
         let sum: f64 = cut.iter().sum();
-        Some(Place {
+        Some(BarycentricPoint {
             vertices,
             weights: cut.map(|w| w / sum),
         })
@@ -201,7 +201,7 @@ impl<'a> Field<'a> {
 
     /// The mixture at a place.
     #[must_use]
-    pub fn mixture(&self, place: &Place) -> Mixture {
+    pub fn mixture(&self, place: &BarycentricPoint) -> Mixture {
         let parts = || place.vertices.into_iter().zip(place.weights);
         let rows = |side: fn(&Cosines) -> &[f64]| -> Vec<f64> {
             let mut mixed = vec![0.0; side(&self.cosines[place.vertices[0]]).len()];
@@ -226,7 +226,7 @@ impl<'a> Field<'a> {
 
     /// The model at a place.
     #[must_use]
-    pub fn model(&self, place: &Place) -> ArmaModel {
+    pub fn model(&self, place: &BarycentricPoint) -> ArmaModel {
         let mixture = self.mixture(place);
         ArmaModel {
             sample_rate_hz: self.grid.sample_rate_hz,

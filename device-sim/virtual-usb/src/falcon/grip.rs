@@ -25,7 +25,7 @@ pub const TOLD: usize = 32;
 
 /// Statistics of motor commands and of the resulting forces.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Felt {
+pub struct MotorStats {
     /// Commands.
     pub commands: u64,
     /// Largest magnitude of a motor's command, counts.
@@ -64,7 +64,7 @@ pub struct Grip {
     time_s: f64,
     /// True if the hand runs its script; otherwise it holds still.
     pub busy: bool,
-    felt: Felt,
+    stats: MotorStats,
     /// Legs where the grip was at the last commands, each of which was answered.
     told: VecDeque<Jacobian>,
 }
@@ -84,7 +84,7 @@ impl Grip {
             index: inverse(INDEX_M).unwrap_or_default(),
             time_s: 0.0,
             busy: true,
-            felt: Felt::default(),
+            stats: MotorStats::default(),
             told: VecDeque::with_capacity(TOLD + 1),
         };
         grip.forget_zeros();
@@ -93,8 +93,8 @@ impl Grip {
 
     /// Returns the statistics so far.
     #[must_use]
-    pub fn felt(&self) -> Felt {
-        self.felt
+    pub fn motor_stats(&self) -> MotorStats {
+        self.stats
     }
 
     /// The last command to the motors, counts.
@@ -122,19 +122,19 @@ impl Grip {
     }
 
     pub(super) fn command(&mut self, command: &Command) {
-        let felt = &mut self.felt;
-        felt.commands += 1;
+        let stats = &mut self.stats;
+        stats.commands += 1;
         for (new, old) in command.motors.into_iter().zip(self.motors) {
-            felt.largest_count = felt.largest_count.max(new.saturating_abs());
+            stats.largest_count = stats.largest_count.max(new.saturating_abs());
             let step = (i32::from(new) - i32::from(old)).abs();
             if !self.first {
-                felt.largest_step = felt.largest_step.max(step);
+                stats.largest_step = stats.largest_step.max(step);
             }
         }
-        felt.pushes_at_first += u64::from(self.first && command.motors != [0; 3]);
+        stats.pushes_at_first += u64::from(self.first && command.motors != [0; 3]);
         self.first = false;
         if self.homed != ALL_HOMED && command.motors != [0; 3] {
-            felt.unhomed_forces += 1;
+            stats.unhomed_forces += 1;
         }
         self.motors = command.motors;
         self.homing = command.homing;
@@ -147,10 +147,10 @@ impl Grip {
             let [x, y, z] = motors::force_n(command.motors, rows);
             (x * x + y * y + z * z).sqrt()
         };
-        let felt = &mut self.felt;
-        felt.largest_force_n = felt.largest_force_n.max(size_n(&rows));
+        let stats = &mut self.stats;
+        stats.largest_force_n = stats.largest_force_n.max(size_n(&rows));
         let meant_n = self.told.iter().map(size_n).fold(f64::INFINITY, f64::min);
-        felt.largest_meant_n = felt.largest_meant_n.max(meant_n);
+        stats.largest_meant_n = stats.largest_meant_n.max(meant_n);
     }
 
     pub(super) fn encoders(&self) -> [i16; 3] {
@@ -202,7 +202,7 @@ impl Grip {
             }
         }
         if force_n != [0.0; 3] {
-            self.felt.pushed_s += seconds;
+            self.stats.pushed_s += seconds;
         }
         self.find_zeros();
     }

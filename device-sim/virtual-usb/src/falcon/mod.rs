@@ -8,7 +8,7 @@
 mod grip;
 pub mod image;
 
-pub use grip::{Felt, Grip, TOLD};
+pub use grip::{Grip, MotorStats, TOLD};
 
 use super::{
     Answer, Device, Setup,

@@ -15,8 +15,8 @@ use super::settings::Settings;
 use super::transport::{Direction, TransferError, Transport};
 use crate::device::Uri;
 use crate::device::usb::error::UsbError;
-use crate::device::usb::ids::{Ids, Kind};
-use crate::device::usb::scan::{Found, access, devices, refuse};
+use crate::device::usb::ids::{DeviceKind, Ids};
+use crate::device::usb::scan::{UsbDevice, access, devices, refuse};
 
 /// Time of a control request.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -55,8 +55,9 @@ impl Opener for UsbOpener {
     fn open(&mut self) -> Result<Opened, OpenError> {
         // A context of its own each time: a device that came back is certainly seen.
         let mut all = devices(&self.ids)?.into_iter();
-        let ours =
-            |(found, _): &(Found, _)| found.kind == Some(Kind::Falcon) && found.is(&self.which);
+        let ours = |(found, _): &(UsbDevice, _)| {
+            found.kind == Some(DeviceKind::Falcon) && found.is(&self.which)
+        };
         let (found, device) = all.find(ours).ok_or_else(|| UsbError::NotFound {
             what: "Novint Falcon",
             which: self.which.clone(),

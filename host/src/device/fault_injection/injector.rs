@@ -8,7 +8,7 @@ use crate::fault_plan::{FaultPlan, FaultSchedule};
 
 /// A device behind faults. Injectors stack.
 #[derive(Debug)]
-pub struct Faulty<D> {
+pub struct DeviceFaultInjector<D> {
     inner: D,
     schedule: FaultSchedule<InjectedFault>,
     /// Fault of the current period.
@@ -19,7 +19,7 @@ pub struct Faulty<D> {
     skipped: u64,
 }
 
-impl<D: Device> Faulty<D> {
+impl<D: Device> DeviceFaultInjector<D> {
     /// Puts a device behind the faults of a plan. The duration of a clock step is the number of
     /// periods that it skips.
     pub fn new(inner: D, plan: FaultPlan<InjectedFault>, seed: u64) -> Self {
@@ -91,7 +91,7 @@ impl<D: Device> Faulty<D> {
     }
 }
 
-impl<D: Device> Device for Faulty<D> {
+impl<D: Device> Device for DeviceFaultInjector<D> {
     fn description(&self) -> &Description {
         self.inner.description()
     }
@@ -205,7 +205,7 @@ mod tests {
 
     #[test]
     fn each_fault_is_what_the_table_says() {
-        let mut device = Faulty::new(walk(), FaultPlan::default(), 1);
+        let mut device = DeviceFaultInjector::new(walk(), FaultPlan::default(), 1);
         let mut run = |kind: InjectedFault| {
             let good = device.read().expect("no fault");
             device.write([0.5, 0.0, 0.0]).expect("no fault");
@@ -285,7 +285,7 @@ mod tests {
     fn faults_come_at_their_rate_and_the_same_seed_gives_the_same_ones() {
         let run = |seed| {
             let plan = FaultPlan::all(&InjectedFault::ALL, 0.11, 1);
-            let mut device = Faulty::new(walk(), plan, seed);
+            let mut device = DeviceFaultInjector::new(walk(), plan, seed);
             let read: Vec<String> = (0..100_000)
                 .map(|_| format!("{:?}", device.read()))
                 .collect();
@@ -305,8 +305,8 @@ mod tests {
     #[test]
     fn injectors_stack() {
         let plan = FaultPlan::default().with(InjectedFault::Lost, 1.0, 1);
-        let inner = Faulty::new(walk(), plan, 1);
-        let mut outer = Faulty::new(inner, FaultPlan::default(), 1);
+        let inner = DeviceFaultInjector::new(walk(), plan, 1);
+        let mut outer = DeviceFaultInjector::new(inner, FaultPlan::default(), 1);
         assert_eq!(outer.read(), Err(DeviceError::TimedOut));
     }
 }

@@ -15,7 +15,7 @@
 //! | stalled | [`DeviceError::Stalled`](super::DeviceError) | arrives |
 //! | unplugged | [`DeviceError::Disconnected`](super::DeviceError) | does not arrive, and the device has none |
 //! | write failed | what was measured | does not arrive; the device keeps the last one |
-//! | clock step | what was measured, and [`Faulty::take_clock_step`] says how many periods are gone | arrives |
+//! | clock step | what was measured, and [`DeviceFaultInjector::take_clock_step`] says how many periods are gone | arrives |
 //!
 //! [`trial`] runs one of them in the middle of a contact, and says what became of the force.
 
@@ -23,5 +23,5 @@ mod injector;
 mod kind;
 pub mod trial;
 
-pub use injector::Faulty;
+pub use injector::DeviceFaultInjector;
 pub use kind::InjectedFault;

@@ -10,7 +10,7 @@ use asperity_runtime::{
 };
 use serde::Serialize;
 
-use super::{Faulty, InjectedFault};
+use super::{DeviceFaultInjector, InjectedFault};
 use crate::device::supervised::{Plausible, Report, Supervised};
 use crate::device::{Description, Device, DeviceError, Reading};
 use crate::fault_plan::FaultPlan;
@@ -22,7 +22,7 @@ pub const AFTER: u32 = 400;
 
 /// Response to a fault. Periods are those of the loop.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
-pub struct Row {
+pub struct FaultResponse {
     /// Periods from the first one with the fault to the safe state; `None` if it never came.
     pub safe_after: Option<u32>,
     /// Periods from there to a fiftieth of the force: a ramp may have begun by then.
@@ -57,8 +57,8 @@ pub const fn promised(kind: InjectedFault) -> Option<u32> {
     }
 }
 
-impl Row {
-    /// The head of a Markdown table of [`Row::line`]s.
+impl FaultResponse {
+    /// The head of a Markdown table of [`FaultResponse::line`]s.
     pub const TABLE_HEAD: &str = "| fault | back end | force before, N | to the safe state | from there to 2 % of it | \
          back after the fault | steepest, N a period | safe state | reports |\n|---|---|---|---|---|---|---|---|---|\n";
 
@@ -135,17 +135,17 @@ impl Trial<'_> {
         device: D,
         kind: InjectedFault,
         mut each: impl FnMut(u32),
-    ) -> Result<Row, ConfigError> {
+    ) -> Result<FaultResponse, ConfigError> {
         let renderer = Renderer::new(self.config)?;
         let mut state = State::new(self.seed);
-        let faulty = Faulty::new(device, FaultPlan::default(), 1);
+        let faulty = DeviceFaultInjector::new(device, FaultPlan::default(), 1);
         let mut device = Supervised::new(faulty, self.config, Plausible::default());
         let lasts = if kind == InjectedFault::ClockStep {
             1
         } else {
             LASTS
         };
-        let mut row = Row::default();
+        let mut row = FaultResponse::default();
         let mut entered = 0;
         let mut held = [0.0; 3];
         for n in 0..self.warm_up + lasts + AFTER {
@@ -189,7 +189,7 @@ impl Trial<'_> {
     }
 }
 
-impl Row {
+impl FaultResponse {
     fn note(&mut self, flags: Flags, report: Option<Report>, since: u32, lasts: u32, force_n: f32) {
         let safe = flags.contains(Flags::SAFE_STATE);
         if safe && self.safe_after.is_none() {

@@ -5,8 +5,8 @@
 //! answers: descriptors and strings. Forces go through the vendor's library, `openhaptics:`.
 
 use super::usb::error::UsbError;
-use super::usb::ids::{Ids, Kind};
-use super::usb::scan::{Found, refuse, scan};
+use super::usb::ids::{DeviceKind, Ids};
+use super::usb::scan::{UsbDevice, refuse, scan};
 
 /// Classes of interfaces, as USB numbers them.
 const SERIAL: [u8; 2] = [0x02, 0x0a];
@@ -14,7 +14,7 @@ const HID: u8 = 0x03;
 
 /// USB presentation of a Touch's firmware.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Face {
+pub enum UsbPresentation {
     /// Serial line (CDC-ACM), `/dev/ttyACM…` on Linux.
     Serial,
     /// Human interface device, `/dev/hidraw…` on Linux: newer firmware.
@@ -23,10 +23,10 @@ pub enum Face {
     Other,
 }
 
-impl Face {
+impl UsbPresentation {
     /// From the classes of a device's interfaces.
     #[must_use]
-    pub fn of(found: &Found) -> Self {
+    pub fn of(found: &UsbDevice) -> Self {
         let has = |class: &u8| found.interface_classes.contains(class);
         if has(&HID) {
             Self::Hid
@@ -54,9 +54,9 @@ impl Face {
 ///
 /// # Errors
 /// [`UsbError`] if there is none, or this user may not open it.
-pub fn identify(ids: &Ids, which: &str) -> Result<Found, UsbError> {
+pub fn identify(ids: &Ids, which: &str) -> Result<UsbDevice, UsbError> {
     let mut all = scan(ids)?.into_iter();
-    let ours = |found: &Found| found.kind == Some(Kind::Touch) && found.is(which);
+    let ours = |found: &UsbDevice| found.kind == Some(DeviceKind::Touch) && found.is(which);
     let found = all.find(ours).ok_or_else(|| UsbError::NotFound {
         what: "3D Systems Touch",
         which: which.to_owned(),

@@ -10,7 +10,7 @@ use thiserror::Error;
 /// Kinds of devices that USB tells apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Kind {
+pub enum DeviceKind {
     /// A Novint Falcon.
     Falcon,
     /// A 3D Systems Touch.
@@ -26,7 +26,7 @@ pub struct KnownId {
     /// Product id.
     pub product: u16,
     /// Kind of the device.
-    pub kind: Kind,
+    pub kind: DeviceKind,
     /// Name for reports.
     pub name: String,
 }
@@ -122,9 +122,9 @@ mod tests {
     fn the_list_knows_the_falcon_and_three_touches() {
         let ids = Ids::built_in().expect("the list");
         let kind = |vendor, product| ids.find(vendor, product).map(|id| id.kind);
-        assert_eq!(kind(0x0403, 0xcb48), Some(Kind::Falcon));
+        assert_eq!(kind(0x0403, 0xcb48), Some(DeviceKind::Falcon));
         for (vendor, product) in [(0x0301, 0x2988), (0x2988, 0x0302), (0x2988, 0x0304)] {
-            assert_eq!(kind(vendor, product), Some(Kind::Touch));
+            assert_eq!(kind(vendor, product), Some(DeviceKind::Touch));
         }
         // Any other device with that serial chip is none of ours.
         assert_eq!(kind(0x0403, 0x6001), None);

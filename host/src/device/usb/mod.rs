@@ -19,5 +19,5 @@ pub mod scan;
 
 pub use absence::Absence;
 pub use error::UsbError;
-pub use ids::{Ids, Kind};
-pub use scan::{Access, Found};
+pub use ids::{DeviceKind, Ids};
+pub use scan::{Access, UsbDevice};

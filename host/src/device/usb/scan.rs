@@ -6,7 +6,7 @@ use rusb::{Context, Device, DeviceHandle, UsbContext as _};
 
 use super::absence::Absence;
 use super::error::UsbError;
-use super::ids::{Ids, Kind};
+use super::ids::{DeviceKind, Ids};
 
 /// Time for a device to tell its strings.
 const PATIENCE: Duration = Duration::from_millis(200);
@@ -28,7 +28,7 @@ pub enum Access {
 
 /// A device that is plugged in.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Found {
+pub struct UsbDevice {
     /// Bus.
     pub bus: u8,
     /// Address on the bus; another one each time that it is plugged in.
@@ -38,7 +38,7 @@ pub struct Found {
     /// Product id.
     pub product: u16,
     /// Kind according to the list of ids.
-    pub kind: Option<Kind>,
+    pub kind: Option<DeviceKind>,
     /// Name in the list of ids, or else its product string.
     pub name: String,
     /// Serial number, if reported.
@@ -49,7 +49,7 @@ pub struct Found {
     pub access: Access,
 }
 
-impl Found {
+impl UsbDevice {
     /// Name and place, for an error.
     #[must_use]
     pub fn place(&self) -> String {
@@ -97,13 +97,13 @@ pub(super) fn context() -> Result<Context, UsbError> {
 ///
 /// # Errors
 /// [`UsbError::NoUsb`].
-pub fn scan(ids: &Ids) -> Result<Vec<Found>, UsbError> {
+pub fn scan(ids: &Ids) -> Result<Vec<UsbDevice>, UsbError> {
     let found = devices(ids)?;
     Ok(found.into_iter().map(|(found, _)| found).collect())
 }
 
 /// As [`scan`], with libusb's devices.
-pub(crate) fn devices(ids: &Ids) -> Result<Vec<(Found, Device<Context>)>, UsbError> {
+pub(crate) fn devices(ids: &Ids) -> Result<Vec<(UsbDevice, Device<Context>)>, UsbError> {
     // libusb fails as a whole while a device comes or goes; a moment later it does not.
     let mut tries = 0;
     let list = loop {
@@ -125,11 +125,11 @@ pub(crate) fn devices(ids: &Ids) -> Result<Vec<(Found, Device<Context>)>, UsbErr
     Ok(found)
 }
 
-fn look(device: &Device<Context>, ids: &Ids) -> Option<Found> {
+fn look(device: &Device<Context>, ids: &Ids) -> Option<UsbDevice> {
     let descriptor = device.device_descriptor().ok()?;
     let (vendor, product) = (descriptor.vendor_id(), descriptor.product_id());
     let known = ids.find(vendor, product);
-    let mut found = Found {
+    let mut found = UsbDevice {
         bus: device.bus_number(),
         address: device.address(),
         vendor,
@@ -170,7 +170,7 @@ pub(crate) fn access(error: rusb::Error) -> Access {
 ///
 /// # Errors
 /// Always, but for [`Access::Ready`] and [`Access::Unknown`].
-pub fn refuse(found: &Found, access: &Access) -> Result<(), UsbError> {
+pub fn refuse(found: &UsbDevice, access: &Access) -> Result<(), UsbError> {
     let device = found.place();
     match access {
         Access::Ready | Access::Unknown => Ok(()),
@@ -184,8 +184,8 @@ pub fn refuse(found: &Found, access: &Access) -> Result<(), UsbError> {
 }
 
 /// A Falcon is claimed for a moment. A Touch is not: its own driver may be at work on it.
-fn usable(handle: &DeviceHandle<Context>, kind: Kind) -> Access {
-    if kind == Kind::Touch {
+fn usable(handle: &DeviceHandle<Context>, kind: DeviceKind) -> Access {
+    if kind == DeviceKind::Touch {
         return Access::Ready;
     }
     match handle.claim_interface(0) {

@@ -17,7 +17,7 @@ const MACHINES: [(u16, &str); 6] = [
 
 /// Kind of a file, from its first bytes.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum BinaryKind {
     /// An ELF file for a machine, by its Rust name where it has one.
     For(String),
     /// No ELF file, or a part of one.
@@ -28,14 +28,16 @@ pub(super) enum Kind {
 const HEAD: usize = 64;
 
 /// Reads for which machine a file was built; `None` where it cannot be read.
-pub(super) fn kind(path: &Path) -> Option<Kind> {
+pub(super) fn kind(path: &Path) -> Option<BinaryKind> {
     let mut head = [0; HEAD];
     let mut file = std::fs::File::open(path).ok()?;
     let length = file.metadata().ok()?.len();
     match file.read_exact(&mut head) {
-        Ok(()) if is_cut(&head, length) => Some(Kind::Foreign),
+        Ok(()) if is_cut(&head, length) => Some(BinaryKind::Foreign),
         Ok(()) => Some(of(&head)),
-        Err(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => Some(Kind::Foreign),
+        Err(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
+            Some(BinaryKind::Foreign)
+        }
         Err(_) => None,
     }
 }
@@ -50,10 +52,10 @@ fn is_cut(head: &[u8; HEAD], length: u64) -> bool {
     head[4..6] == [2, 1] && table.saturating_add(short(58) * short(60)) > length
 }
 
-fn of(head: &[u8; HEAD]) -> Kind {
+fn of(head: &[u8; HEAD]) -> BinaryKind {
     let (class, order) = (head[4], head[5]);
     if &head[..4] != b"\x7fELF" || !matches!(class, 1 | 2) || !matches!(order, 1 | 2) {
-        return Kind::Foreign;
+        return BinaryKind::Foreign;
     }
     let number = [head[18], head[19]];
     let number = if order == 1 {
@@ -62,7 +64,7 @@ fn of(head: &[u8; HEAD]) -> Kind {
         u16::from_be_bytes(number)
     };
     let name = MACHINES.iter().find(|(machine, _)| *machine == number);
-    Kind::For(match (name, class) {
+    BinaryKind::For(match (name, class) {
         // The 32-bit programs of a 64-bit machine.
         (Some((62, _)), 1) => "x86_64 with 32-bit pointers".into(),
         (Some((_, name)), _) => (*name).into(),
@@ -80,11 +82,11 @@ mod tests {
         head[..6].copy_from_slice(b"\x7fELF\x02\x01");
         for (number, name) in [(62, "x86_64"), (183, "aarch64"), (999, "ELF machine 999")] {
             head[18..20].copy_from_slice(&u16::to_le_bytes(number));
-            assert_eq!(of(&head), Kind::For(name.into()));
+            assert_eq!(of(&head), BinaryKind::For(name.into()));
         }
         (head[4], head[18], head[19]) = (1, 3, 0);
-        assert_eq!(of(&head), Kind::For("x86".into()));
+        assert_eq!(of(&head), BinaryKind::For("x86".into()));
         head[..9].copy_from_slice(b"#!/bin/sh");
-        assert_eq!(of(&head), Kind::Foreign);
+        assert_eq!(of(&head), BinaryKind::Foreign);
     }
 }

@@ -7,7 +7,7 @@
 
 use std::path::Path;
 
-use super::{Asked, LibraryError, Source, elf};
+use super::{LibraryError, LibraryRequest, Source, elf};
 
 /// A loaded library. It is unloaded when it is dropped.
 #[derive(Debug)]
@@ -28,8 +28,8 @@ impl Library {
         setting: Option<&str>,
     ) -> Result<Self, LibraryError> {
         let product = source.product;
-        match source.asked(setting) {
-            Asked::File(path) => {
+        match source.requested(setting) {
+            LibraryRequest::File(path) => {
                 check_file(product, &path)?;
                 let loaded = open(&path).map_err(|message| LibraryError::Load {
                     product,
@@ -42,7 +42,7 @@ impl Library {
                     path,
                 })
             }
-            Asked::System => {
+            LibraryRequest::System => {
                 let mut first = None;
                 for &name in source.names {
                     match open(name) {
@@ -115,16 +115,18 @@ fn check_file(product: &'static str, path: &str) -> Result<(), LibraryError> {
     }
     let here = std::env::consts::ARCH;
     match elf::kind(Path::new(path)) {
-        Some(elf::Kind::Foreign) => Err(LibraryError::NotALibrary {
+        Some(elf::BinaryKind::Foreign) => Err(LibraryError::NotALibrary {
             product,
             path: named,
         }),
-        Some(elf::Kind::For(built_for)) if built_for != here => Err(LibraryError::Architecture {
-            product,
-            path: named,
-            built_for,
-            here,
-        }),
+        Some(elf::BinaryKind::For(built_for)) if built_for != here => {
+            Err(LibraryError::Architecture {
+                product,
+                path: named,
+                built_for,
+                here,
+            })
+        }
         _ => Ok(()),
     }
 }

@@ -24,7 +24,7 @@ pub struct Source {
 
 /// Where a library was asked for, in the order of precedence.
 #[derive(Debug, Clone, PartialEq, Eq)]
-enum Asked {
+enum LibraryRequest {
     /// A given file.
     File(String),
     /// Any of the names, on the system's search path.
@@ -33,10 +33,10 @@ enum Asked {
 
 impl Source {
     /// Resolves the requested library: `setting` is the value of `lib=`.
-    fn asked(&self, setting: Option<&str>) -> Asked {
+    fn requested(&self, setting: Option<&str>) -> LibraryRequest {
         let variable = std::env::var(self.variable).ok();
         let path = setting.map(str::to_owned).or(variable);
         path.filter(|path| !path.is_empty())
-            .map_or(Asked::System, Asked::File)
+            .map_or(LibraryRequest::System, LibraryRequest::File)
     }
 }

@@ -1,10 +1,15 @@
 //! macOS, Windows and others. Untested: nobody has run this.
 
-use super::{Grant, Policy, Refusal, Wanted, system};
+use super::{Grant, Policy, PrivilegeRequest, Refusal, system};
 use std::fs::File;
 
-pub(super) fn acquire(wanted: &Wanted, _: u32, grants: &mut Vec<Grant>, _: &mut Vec<File>) {
-    if wanted.policy != Policy::Other {
+pub(super) fn acquire(
+    request: &PrivilegeRequest,
+    _: u32,
+    grants: &mut Vec<Grant>,
+    _: &mut Vec<File>,
+) {
+    if request.policy != Policy::Other {
         let answer = system::set_interactive().map_err(|error| Refusal {
             why: error.to_string(),
             remedy: "close other programs; this system has nothing to grant".into(),
@@ -25,10 +30,10 @@ pub(super) fn acquire(wanted: &Wanted, _: u32, grants: &mut Vec<Grant>, _: &mut 
             }),
         });
     };
-    if wanted.lock_memory {
+    if request.lock_memory {
         absent("memory", "locked".into());
     }
-    if let Some(cpu) = wanted.cpu {
+    if let Some(cpu) = request.cpu {
         absent("processor", cpu.to_string());
     }
 }

@@ -1,6 +1,6 @@
 //! Linux.
 
-use super::{Grant, Policy, Refusal, Wanted, system};
+use super::{Grant, Policy, PrivilegeRequest, Refusal, system};
 use rustix::{
     mm::{MlockAllFlags, mlockall},
     process::{Resource, getrlimit},
@@ -16,7 +16,7 @@ const CAPABILITIES: &str = "sudo setcap cap_sys_nice,cap_ipc_lock+ep \"$(which a
 const IDLE_FILE: &str = "/dev/cpu_dma_latency";
 
 pub(super) fn acquire(
-    wanted: &Wanted,
+    request: &PrivilegeRequest,
     rate_hz: u32,
     grants: &mut Vec<Grant>,
     held: &mut Vec<File>,
@@ -28,14 +28,14 @@ pub(super) fn acquire(
             refusal: answer.err(),
         });
     };
-    if wanted.lock_memory {
+    if request.lock_memory {
         answer("memory", "locked".into(), lock_memory());
     }
-    if wanted.shallow_idle {
+    if request.shallow_idle {
         let opened = shallow_idle().map(|file| held.push(file));
         answer("idle", "shallow".into(), opened);
     }
-    if let Some(cpu) = wanted.cpu {
+    if let Some(cpu) = request.cpu {
         answer("processor", cpu.to_string(), pin(cpu));
     }
     // Without it, timers of ordinary threads are up to 50 µs late on purpose.
@@ -45,9 +45,9 @@ pub(super) fn acquire(
         remedy: "use a real-time policy, which has no timer slack".into(),
     });
     answer("timer slack", "1 ns".into(), slack);
-    if wanted.policy != Policy::Other {
-        let policy = schedule(wanted, rate_hz);
-        answer("policy", wanted.policy.to_string(), policy);
+    if request.policy != Policy::Other {
+        let policy = schedule(request, rate_hz);
+        answer("policy", request.policy.to_string(), policy);
     }
 }
 
@@ -98,19 +98,19 @@ fn pin(cpu: usize) -> Result<(), Refusal> {
     sched_setaffinity(None, &set).map_err(|error| refusal(error.to_string()))
 }
 
-fn schedule(wanted: &Wanted, rate_hz: u32) -> Result<(), Refusal> {
-    let remedy = |error: &io::Error| match (wanted.policy, error.raw_os_error()) {
+fn schedule(request: &PrivilegeRequest, rate_hz: u32) -> Result<(), Refusal> {
+    let remedy = |error: &io::Error| match (request.policy, error.raw_os_error()) {
         (Policy::Deadline { .. }, Some(libc::EBUSY)) => {
             "ask for a smaller share, such as deadline:20; the kernel has promised the rest".into()
         }
-        (Policy::Deadline { .. }, Some(libc::EPERM)) if wanted.cpu.is_some() => {
+        (Policy::Deadline { .. }, Some(libc::EPERM)) if request.cpu.is_some() => {
             "leave out --cpu: a thread with a deadline may run on every processor".into()
         }
         _ => format!(
             "{CAPABILITIES}, or add `@realtime - rtprio 95` to /etc/security/limits.conf and join the group realtime"
         ),
     };
-    let scheduled = match wanted.policy {
+    let scheduled = match request.policy {
         Policy::Other => Ok(()),
         Policy::Fifo { priority } => system::set_fifo(priority),
         Policy::Deadline { percent } => {
@@ -143,14 +143,14 @@ mod tests {
     fn a_policy_that_is_granted_is_the_one_that_the_kernel_states() {
         // No kernel has a priority of 100.
         for priority in [1, 100] {
-            let wanted = Wanted {
+            let request = PrivilegeRequest {
                 policy: Policy::Fifo { priority },
-                ..Wanted::NOTHING
+                ..PrivilegeRequest::NOTHING
             };
             let asked = std::thread::spawn(move || {
                 let before = scheduled();
                 let mut grants = Vec::new();
-                acquire(&wanted, 1000, &mut grants, &mut Vec::new());
+                acquire(&request, 1000, &mut grants, &mut Vec::new());
                 let policy = grants.into_iter().find(|grant| grant.what == "policy");
                 (policy.unwrap().refusal.is_none(), before, scheduled())
             });

@@ -24,7 +24,7 @@ use std::fs::File;
 
 /// Requested privileges.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Wanted {
+pub struct PrivilegeRequest {
     /// Scheduling policy of the thread.
     pub policy: Policy,
     /// Keep all memory of the process in RAM.
@@ -35,7 +35,7 @@ pub struct Wanted {
     pub shallow_idle: bool,
 }
 
-impl Wanted {
+impl PrivilegeRequest {
     /// Nothing: what an ordinary thread has.
     pub const NOTHING: Self = Self {
         policy: Policy::Other,
@@ -73,12 +73,12 @@ pub(super) struct Acquired {
 }
 
 /// Asks for everything that is wanted, for the calling thread.
-pub(super) fn acquire(wanted: &Wanted, rate_hz: u32) -> Acquired {
+pub(super) fn acquire(request: &PrivilegeRequest, rate_hz: u32) -> Acquired {
     let mut acquired = Acquired {
         grants: Vec::new(),
         _held: Vec::new(),
     };
-    platform::acquire(wanted, rate_hz, &mut acquired.grants, &mut acquired._held);
+    platform::acquire(request, rate_hz, &mut acquired.grants, &mut acquired._held);
     stack::touch();
     acquired
 }

@@ -1,6 +1,6 @@
 //! Coefficients of a structure, after conversion.
 
-use crate::convert::Row;
+use crate::convert::OrderArray;
 use crate::number::Number;
 use asperity_formats::limits::MAX_ORDER;
 
@@ -8,11 +8,11 @@ use asperity_formats::limits::MAX_ORDER;
 #[derive(Debug, Clone)]
 pub(crate) struct Coefficients<S> {
     /// Coefficients of A(z), its cosines or its reflection coefficients.
-    pub(crate) ar: Row<S>,
+    pub(crate) ar: OrderArray<S>,
     /// √(1 − k²), for the normalised lattice.
-    pub(crate) complement: Row<S>,
+    pub(crate) complement: OrderArray<S>,
     /// Coefficients of B(z), or its cosines.
-    pub(crate) ma: Row<S>,
+    pub(crate) ma: OrderArray<S>,
     /// Gain on the excitation of the normalised lattice: Π 1/√(1 − k²).
     pub(crate) gain: S,
 }
@@ -30,7 +30,7 @@ impl<S: Number> Coefficients<S> {
 
     /// The set that lies at `fraction` of the way from one to another.
     pub(crate) fn between(from: &Self, to: &Self, fraction: S, lanes: (usize, usize)) -> Self {
-        let mix = |x: &Row<S>, y: &Row<S>, used: usize| {
+        let mix = |x: &OrderArray<S>, y: &OrderArray<S>, used: usize| {
             let mut row = [S::ZERO; MAX_ORDER];
             for ((row, x), y) in row.iter_mut().zip(x).zip(y).take(used) {
                 *row = x.plus(fraction.times(y.minus(*x)));

@@ -8,7 +8,7 @@ use crate::number::Number;
 use asperity_formats::limits::MAX_ORDER;
 
 /// A number for each pole or zero; 0 above the order.
-pub(crate) type Row<P> = [P; MAX_ORDER];
+pub(crate) type OrderArray<P> = [P; MAX_ORDER];
 
 /// Half of a symmetric polynomial, of the sum and of the difference side. Two zeros stand
 /// before the first coefficient.
@@ -31,7 +31,7 @@ pub(crate) fn stage(index: usize, order: usize) -> usize {
 }
 
 /// Coefficients 1..=p of A(z) from the cosines of its LSFs.
-pub(crate) fn from_cosines<P: Number>(cosines: &Row<P>, order: usize) -> Row<P> {
+pub(crate) fn from_cosines<P: Number>(cosines: &OrderArray<P>, order: usize) -> OrderArray<P> {
     let minus_two = P::of(-2.0);
     let mut half: Half<P> = [[P::ZERO; 2]; 16];
     half[FIRST] = [P::of(1.0); 2];
@@ -68,7 +68,7 @@ fn multiplied<P: Number>(half: &Half<P>, k: usize, done: usize, lane: usize, m: 
 
 /// a_k = (q_k + p_k)/2 and a_{p+1−k} = (q_k − p_k)/2.
 #[inline]
-fn assemble<P: Number>(half: &Half<P>, order: usize) -> Row<P> {
+fn assemble<P: Number>(half: &Half<P>, order: usize) -> OrderArray<P> {
     let one_half = P::of(0.5);
     let mut a = [P::ZERO; MAX_ORDER];
     let odd = order % 2 == 1;
@@ -127,7 +127,7 @@ pub(crate) fn from_log_area<P: Number>(ratio: P) -> P {
 }
 
 /// Coefficients of A(z) from reflection coefficients.
-pub(crate) fn step_up<P: Number>(reflection: &Row<P>, order: usize) -> Row<P> {
+pub(crate) fn step_up<P: Number>(reflection: &OrderArray<P>, order: usize) -> OrderArray<P> {
     let mut a = [P::ZERO; MAX_ORDER];
     for (done, &r) in reflection.iter().enumerate().take(order) {
         for i in 0..done.div_ceil(2) {
@@ -141,7 +141,7 @@ pub(crate) fn step_up<P: Number>(reflection: &Row<P>, order: usize) -> Row<P> {
 }
 
 /// Reflection coefficients of A(z); where one of them is 1 or more, A(z) is not stable.
-pub(crate) fn step_down<P: Number>(coefficients: &Row<P>, order: usize) -> Row<P> {
+pub(crate) fn step_down<P: Number>(coefficients: &OrderArray<P>, order: usize) -> OrderArray<P> {
     let mut a = *coefficients;
     for last in (0..order).rev() {
         let r = a[last];

@@ -4,12 +4,12 @@
 //! so a difference between two kernels comes from their designs alone.
 
 use crate::coefficients::Coefficients;
-use crate::convert::{self, Row};
+use crate::convert::{self, OrderArray};
 use crate::design::{Arithmetic, Design, Level, Shape, Structure, Transition};
 use crate::number::{Fixed16, Fixed32, Number, Rounds};
 use crate::parameters::{Parameters, coefficients, cosines, parameters, reflections};
 use crate::synthesis::Synthesis;
-use crate::texture::{Filter, Numerator, Place, Texture};
+use crate::texture::{BarycentricPoint, Filter, Numerator, Texture};
 use alloc::{boxed::Box, vec::Vec};
 use asperity_formats::limits::MAX_ORDER;
 
@@ -23,15 +23,15 @@ const RESPONSE: usize = 2048;
 /// A kernel, whatever its arithmetic.
 pub trait Rendering: Send {
     /// Starts from silence with the model at a place.
-    fn settle(&mut self, place: &Place);
+    fn settle(&mut self, place: &BarycentricPoint);
     /// The filter that is rendered with now.
     fn filter(&self) -> Filter;
     /// Renders one sample, m/s², for each place and excitation.
-    fn render(&mut self, places: &[Place], epsilon: &[f64]) -> Vec<f64>;
+    fn render(&mut self, places: &[BarycentricPoint], epsilon: &[f64]) -> Vec<f64>;
     /// Renders `ticks` samples, cycling over the places, and returns the last one.
     ///
     /// All work besides the ticks themselves costs the same for any number of ticks.
-    fn repeat(&mut self, places: &[Place], epsilon: &[f64], ticks: usize) -> f64;
+    fn repeat(&mut self, places: &[BarycentricPoint], epsilon: &[f64], ticks: usize) -> f64;
 }
 
 /// The kernel of a design for a texture, with LSFs rounded as the design says.
@@ -147,7 +147,7 @@ impl<P: Number + Rounds<S>, S: Number> Kernel<P, S> {
     fn mix_shape(&self, mix: &Mix<P>) -> Parameters<P> {
         let [a, b, c] = mix.vertices.map(|v| &self.vertices[v].shape);
         let [u, v, w] = mix.weights;
-        let row = |a: &Row<P>, b: &Row<P>, c: &Row<P>, used: usize| {
+        let row = |a: &OrderArray<P>, b: &OrderArray<P>, c: &OrderArray<P>, used: usize| {
             let mut row = [P::ZERO; MAX_ORDER];
             for (((row, a), b), c) in row.iter_mut().zip(a).zip(b).zip(c).take(used) {
                 *row = u.times(*a).plus(v.times(*b)).plus(w.times(*c));
@@ -175,7 +175,7 @@ impl<P: Number + Rounds<S>, S: Number> Kernel<P, S> {
 
     #[inline]
     fn follow(&mut self, target: &Parameters<P>) {
-        let step = |x: &mut Row<P>, target: &Row<P>, used: usize, fraction: P| {
+        let step = |x: &mut OrderArray<P>, target: &OrderArray<P>, used: usize, fraction: P| {
             for (x, t) in x.iter_mut().zip(target).take(used) {
                 *x = x.plus(fraction.times(t.minus(*x)));
             }
@@ -266,7 +266,7 @@ impl<P: Number + Rounds<S>, S: Number> Kernel<P, S> {
         }
     }
 
-    fn inputs(places: &[Place], epsilon: &[f64]) -> Vec<(Mix<P>, P)> {
+    fn inputs(places: &[BarycentricPoint], epsilon: &[f64]) -> Vec<(Mix<P>, P)> {
         places
             .iter()
             .zip(epsilon)
@@ -276,7 +276,7 @@ impl<P: Number + Rounds<S>, S: Number> Kernel<P, S> {
 }
 
 impl<P: Number + Rounds<S>, S: Number> Rendering for Kernel<P, S> {
-    fn settle(&mut self, place: &Place) {
+    fn settle(&mut self, place: &BarycentricPoint) {
         let mix = mix_of(place);
         self.mixed = self.mix_shape(&mix);
         self.now = self.convert();
@@ -287,8 +287,8 @@ impl<P: Number + Rounds<S>, S: Number> Rendering for Kernel<P, S> {
     }
 
     fn filter(&self) -> Filter {
-        let values = |row: &Row<S>| row.map(Number::value);
-        let monic = |row: Row<f64>, order: usize| -> Vec<f64> {
+        let values = |row: &OrderArray<S>| row.map(Number::value);
+        let monic = |row: OrderArray<f64>, order: usize| -> Vec<f64> {
             core::iter::once(1.0)
                 .chain(row.into_iter().take(order))
                 .collect()
@@ -312,14 +312,14 @@ impl<P: Number + Rounds<S>, S: Number> Rendering for Kernel<P, S> {
         }
     }
 
-    fn render(&mut self, places: &[Place], epsilon: &[f64]) -> Vec<f64> {
+    fn render(&mut self, places: &[BarycentricPoint], epsilon: &[f64]) -> Vec<f64> {
         Self::inputs(places, epsilon)
             .iter()
             .map(|(mix, epsilon)| self.step(mix, *epsilon).value() * self.scale)
             .collect()
     }
 
-    fn repeat(&mut self, places: &[Place], epsilon: &[f64], ticks: usize) -> f64 {
+    fn repeat(&mut self, places: &[BarycentricPoint], epsilon: &[f64], ticks: usize) -> f64 {
         let inputs = Self::inputs(places, epsilon);
         let mut last = S::ZERO;
         for (mix, epsilon) in inputs.iter().cycle().take(ticks) {
@@ -329,14 +329,18 @@ impl<P: Number + Rounds<S>, S: Number> Rendering for Kernel<P, S> {
     }
 }
 
-fn mix_of<P: Number>(place: &Place) -> Mix<P> {
+fn mix_of<P: Number>(place: &BarycentricPoint) -> Mix<P> {
     Mix {
         vertices: place.vertices,
         weights: place.weights.map(P::of),
     }
 }
 
-fn rounded<P: Number + Rounds<S>, S: Number>(out: &mut Row<S>, row: &Row<P>, order: usize) {
+fn rounded<P: Number + Rounds<S>, S: Number>(
+    out: &mut OrderArray<S>,
+    row: &OrderArray<P>,
+    order: usize,
+) {
     for (out, x) in out.iter_mut().zip(row).take(order) {
         *out = x.rounded();
     }
@@ -357,7 +361,7 @@ fn scale(design: &Design, texture: &Texture<'_>) -> Option<f64> {
     let mut impulse = alloc::vec![0.0; RESPONSE];
     impulse[0] = 1.0;
     let energy = |vertex| {
-        let place = Place {
+        let place = BarycentricPoint {
             vertices: [vertex; 3],
             weights: [1.0, 0.0, 0.0],
         };

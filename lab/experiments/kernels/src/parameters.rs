@@ -1,6 +1,6 @@
 //! The parameters that are mixed: from a vertex's LSFs, and on to coefficients.
 
-use crate::convert::{self, Row, stage};
+use crate::convert::{self, OrderArray, stage};
 use crate::design::{Design, Shape};
 use crate::number::Number;
 use crate::texture::Vertex;
@@ -12,9 +12,9 @@ use core::f64::consts::PI;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Parameters<P> {
     /// Parameters of the poles.
-    pub(crate) ar: Row<P>,
+    pub(crate) ar: OrderArray<P>,
     /// Parameters of the zeros.
-    pub(crate) ma: Row<P>,
+    pub(crate) ma: OrderArray<P>,
 }
 
 /// Parameters of a vertex whose LSFs are stored as the design says; `None` where two LSFs
@@ -54,7 +54,7 @@ fn apart(mut lsf_rad: Vec<f64>) -> Vec<f64> {
     lsf_rad
 }
 
-fn row<P: Number>(shape: Shape, lsf_rad: &[f64]) -> Option<Row<P>> {
+fn row<P: Number>(shape: Shape, lsf_rad: &[f64]) -> Option<OrderArray<P>> {
     let order = lsf_rad.len();
     let staged = |value: fn(f64) -> f64| {
         let mut row = [0.0; MAX_ORDER];
@@ -85,7 +85,11 @@ fn row<P: Number>(shape: Shape, lsf_rad: &[f64]) -> Option<Row<P>> {
 
 /// Cosines of the LSFs, from LSFs or their cosines.
 #[inline]
-pub(crate) fn cosines<P: Number>(shape: Shape, mixed: &Row<P>, order: usize) -> Row<P> {
+pub(crate) fn cosines<P: Number>(
+    shape: Shape,
+    mixed: &OrderArray<P>,
+    order: usize,
+) -> OrderArray<P> {
     let mut row = *mixed;
     if shape == Shape::LsfOmega {
         for x in row.iter_mut().take(order) {
@@ -97,7 +101,11 @@ pub(crate) fn cosines<P: Number>(shape: Shape, mixed: &Row<P>, order: usize) -> 
 
 /// Coefficients 1..=p of A(z) from mixed parameters.
 #[inline]
-pub(crate) fn coefficients<P: Number>(shape: Shape, mixed: &Row<P>, order: usize) -> Row<P> {
+pub(crate) fn coefficients<P: Number>(
+    shape: Shape,
+    mixed: &OrderArray<P>,
+    order: usize,
+) -> OrderArray<P> {
     match shape {
         Shape::Coefficients => *mixed,
         Shape::LsfOmega | Shape::LsfCosine => {
@@ -111,7 +119,11 @@ pub(crate) fn coefficients<P: Number>(shape: Shape, mixed: &Row<P>, order: usize
 
 /// Reflection coefficients of A(z) from mixed parameters.
 #[inline]
-pub(crate) fn reflections<P: Number>(shape: Shape, mixed: &Row<P>, order: usize) -> Row<P> {
+pub(crate) fn reflections<P: Number>(
+    shape: Shape,
+    mixed: &OrderArray<P>,
+    order: usize,
+) -> OrderArray<P> {
     match shape {
         Shape::Reflection => *mixed,
         Shape::LogArea => {

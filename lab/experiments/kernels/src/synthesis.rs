@@ -2,16 +2,16 @@
 //!
 //! All of them apply the numerator first, to the excitation, and then the poles.
 
-use crate::{coefficients::Coefficients, convert::Row, number::Number};
+use crate::{coefficients::Coefficients, convert::OrderArray, number::Number};
 use asperity_formats::limits::MAX_ORDER;
 
 /// The state of a filter.
 #[derive(Debug, Clone)]
 pub(crate) struct Synthesis<S> {
     /// Past excitations, the newest first.
-    e: Row<S>,
+    e: OrderArray<S>,
     /// Past outputs, the newest first, or what the stages of a lattice have stored.
-    y: Row<S>,
+    y: OrderArray<S>,
     ma_chain: Chain<S>,
     ar_chain: Chain<S>,
 }
@@ -29,7 +29,7 @@ impl<S: Number> Synthesis<S> {
 
     /// The excitation through the numerator; `used` is a multiple of four.
     #[inline]
-    fn numerator(&mut self, ma: &Row<S>, used: usize, e: S) -> S {
+    fn numerator(&mut self, ma: &OrderArray<S>, used: usize, e: S) -> S {
         if used == 0 {
             return e;
         }
@@ -131,7 +131,7 @@ struct Chain<S> {
 
 /// Section inputs without the newest sample.
 struct Known<S> {
-    sections: Row<S>,
+    sections: OrderArray<S>,
     ends: [S; 2],
 }
 
@@ -146,7 +146,7 @@ impl<S: Number> Chain<S> {
 
     /// Returns the known part of every section's input, and the contribution of the stored samples to A(z) at `order`.
     #[inline]
-    fn delayed(&self, cosines: &Row<S>, order: usize) -> (Known<S>, S) {
+    fn delayed(&self, cosines: &OrderArray<S>, order: usize) -> (Known<S>, S) {
         let minus_two = S::of(-2.0);
         let mut sections = [S::ZERO; MAX_ORDER];
         let mut side = [S::ZERO; 2];

@@ -38,7 +38,7 @@ pub struct Texture<'a> {
 
 /// A triangle, by its vertices, and the weights of a query in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub struct BarycentricPoint {
     /// Indices of the vertices.
     pub vertices: [usize; 3],
     /// Barycentric weights, not negative, of sum 1.

@@ -6,7 +6,7 @@
 
 use crate::design::{Design, Order};
 use crate::kernel::{Rendering, kernel};
-use crate::texture::{Numerator, Place, Texture, Vertex};
+use crate::texture::{BarycentricPoint, Numerator, Texture, Vertex};
 use alloc::{boxed::Box, vec::Vec};
 use core::{f64::consts::PI, hint::black_box};
 
@@ -80,7 +80,7 @@ fn spread(order: usize, seed: usize) -> Vec<f64> {
 /// Queries and an excitation.
 #[derive(Debug, Clone)]
 pub struct Workload {
-    places: Vec<Place>,
+    places: Vec<BarycentricPoint>,
     epsilon: Vec<f64>,
 }
 
@@ -88,7 +88,7 @@ impl Default for Workload {
     fn default() -> Self {
         let place = |n: usize| {
             let t = n as f64 / TICKS as f64;
-            Place {
+            BarycentricPoint {
                 vertices: [0, 1, 2],
                 weights: [0.5 - 0.3 * t, 0.2 + 0.5 * t, 0.3 - 0.2 * t],
             }

@@ -13,7 +13,7 @@ use super::{
 
 /// A texture after some seconds of strokes.
 #[derive(Debug, Clone, Serialize)]
-pub struct Row {
+pub struct LearningCurvePoint {
     /// The texture.
     pub name: String,
     /// Seconds of strokes.
@@ -40,7 +40,7 @@ pub fn learn(
     seed: u64,
     alter: impl Fn(&mut Sensors) + Sync,
     done: impl Fn() + Sync,
-) -> Result<Vec<Row>, ImportAccuracyError> {
+) -> Result<Vec<LearningCurvePoint>, ImportAccuracyError> {
     textures
         .par_iter()
         .enumerate()
@@ -54,7 +54,7 @@ pub fn learn(
             let analysis = recording::analyse(folder.path(), false, &mut Pipeline::default());
             done();
             Ok(match analysis {
-                Ok(analysis) => Row {
+                Ok(analysis) => LearningCurvePoint {
                     name: texture.name.clone(),
                     seconds,
                     comparison: Some(compare(texture, &performance, &sensors, &analysis)),
@@ -62,7 +62,7 @@ pub fn learn(
                     vertices: analysis.fit.facts.len(),
                     order: analysis.fit.chosen.order,
                 },
-                Err(error) => Row {
+                Err(error) => LearningCurvePoint {
                     name: texture.name.clone(),
                     seconds,
                     comparison: None,
@@ -117,7 +117,7 @@ pub struct Figures {
 
 /// The figures of rows of one length.
 #[must_use]
-pub fn summary(rows: &[Row]) -> Figures {
+pub fn summary(rows: &[LearningCurvePoint]) -> Figures {
     use asperity_recording::signal::quantile::{mean, median, quantile};
     let came: Vec<&Comparison> = rows
         .iter()

@@ -1,4 +1,4 @@
-//! A virtual bench: known textures are stroked and tapped, simulated sensors write files, and what an
+//! A simulated bench: known textures are stroked and tapped, simulated sensors write files, and what an
 //! import makes of the files is held against the truth.
 //!
 //! The importer gets what a sensor would: three axes of acceleration with gravity, noise and a clock
@@ -13,7 +13,7 @@ mod tool;
 mod truth;
 
 pub use error::ImportAccuracyError;
-pub use learning_curve::{Figures, GOAL_DB, LOUD_DB, Row, learn, summary};
+pub use learning_curve::{Figures, GOAL_DB, LOUD_DB, LearningCurvePoint, learn, summary};
 pub use perform::{Performance, Strokes, Until, perform};
 pub use sensors::{BENT_S, GRAVITY_M_S2, HAND_HALF, across, of_tool};
 pub use sensors::{Sensors, record};

@@ -117,9 +117,9 @@ pub fn compare_at(
 }
 
 /// Column and row of a cell.
-type Place = (u32, u32);
+type CellIndex = (u32, u32);
 
-fn place(speed_mm_s: f64, force_n: f64) -> Place {
+fn place(speed_mm_s: f64, force_n: f64) -> CellIndex {
     ((speed_mm_s / CELL.0) as u32, (force_n / CELL.1) as u32)
 }
 
@@ -131,9 +131,12 @@ struct Visit {
 }
 
 /// The cells that were visited long enough.
-fn visited(grid: &ModelGrid, visits: impl IntoIterator<Item = (f32, f32)>) -> Vec<(Place, Visit)> {
+fn visited(
+    grid: &ModelGrid,
+    visits: impl IntoIterator<Item = (f32, f32)>,
+) -> Vec<(CellIndex, Visit)> {
     let (width, height) = asperity::model::mesh::corner(grid);
-    let mut cells: BTreeMap<Place, (usize, f64, f64)> = BTreeMap::new();
+    let mut cells: BTreeMap<CellIndex, (usize, f64, f64)> = BTreeMap::new();
     for (speed, force) in visits {
         let (speed, force) = (f64::from(speed), f64::from(force));
         if force <= 0.0 || speed < SLOWEST_MM_S || speed > width || force > height {
@@ -157,8 +160,8 @@ fn visited(grid: &ModelGrid, visits: impl IntoIterator<Item = (f32, f32)>) -> Ve
 }
 
 /// Time that the segments of an analysis spend in every cell, s.
-fn used_time(analysis: &Analysis) -> BTreeMap<Place, f64> {
-    let mut cells: BTreeMap<Place, f64> = BTreeMap::new();
+fn used_time(analysis: &Analysis) -> BTreeMap<CellIndex, f64> {
+    let mut cells: BTreeMap<CellIndex, f64> = BTreeMap::new();
     let mut end = 0;
     for segment in &analysis.strokes.segments {
         let last = segment.start + segment.length;

@@ -9,7 +9,7 @@ use crate::signal::rms;
 use asperity::{
     model::{
         ModelGrid,
-        mixture::{Field, Place, places},
+        mixture::{BarycentricPoint, Field, places},
     },
     signal::{reflection, spectrum::ArmaModel},
 };
@@ -51,7 +51,7 @@ pub struct Truth {
     band: Band,
     still: Vec<Still>,
     /// Where the hand moves, and what the oracle renders there.
-    motion: Vec<Place>,
+    motion: Vec<BarycentricPoint>,
     epsilon: Vec<f64>,
     moving: Vec<f64>,
     block: usize,
@@ -59,14 +59,14 @@ pub struct Truth {
 }
 
 struct Still {
-    place: Place,
+    place: BarycentricPoint,
     /// `None` where the place is silent.
     powers: Option<Vec<f64>>,
 }
 
 struct Pair {
     /// Vertex for each sample, drawn at random from the two so that no update interval samples only one of them.
-    places: Vec<Place>,
+    places: Vec<BarycentricPoint>,
     louder_rms: f64,
 }
 
@@ -175,8 +175,8 @@ impl Truth {
 }
 
 /// The query at a vertex.
-fn at(vertex: usize) -> Place {
-    Place {
+fn at(vertex: usize) -> BarycentricPoint {
+    BarycentricPoint {
         vertices: [vertex; 3],
         weights: [1.0, 0.0, 0.0],
     }
@@ -189,7 +189,7 @@ fn motion(
     field: &Field<'_>,
     ticks: usize,
     random: &mut Xoshiro256PlusPlus,
-) -> Option<Vec<Place>> {
+) -> Option<Vec<BarycentricPoint>> {
     let (max_speed, max_force) = asperity::model::mesh::corner(grid);
     let (stroke, press) = (uniform(random), uniform(random));
     (0..ticks)

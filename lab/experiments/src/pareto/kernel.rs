@@ -1,7 +1,7 @@
 //! Kernels for the compiler's models.
 
 use asperity::{
-    model::{self, ModelGrid, mixture::Place},
+    model::{self, ModelGrid, mixture::BarycentricPoint},
     signal::spectrum::ArmaModel,
 };
 use asperity_kernels::{
@@ -47,7 +47,7 @@ impl Kernel {
     }
 
     /// Starts from silence with the model at a place.
-    pub fn settle(&mut self, place: &Place) {
+    pub fn settle(&mut self, place: &BarycentricPoint) {
         self.rendering.settle(&of(place));
     }
 
@@ -64,14 +64,14 @@ impl Kernel {
     }
 
     /// Renders one sample, m/s², for each place and excitation.
-    pub fn render(&mut self, places: &[Place], epsilon: &[f64]) -> Vec<f64> {
-        let places: Vec<texture::Place> = places.iter().map(of).collect();
+    pub fn render(&mut self, places: &[BarycentricPoint], epsilon: &[f64]) -> Vec<f64> {
+        let places: Vec<texture::BarycentricPoint> = places.iter().map(of).collect();
         self.rendering.render(&places, epsilon)
     }
 }
 
-fn of(place: &Place) -> texture::Place {
-    texture::Place {
+fn of(place: &BarycentricPoint) -> texture::BarycentricPoint {
+    texture::BarycentricPoint {
         vertices: place.vertices,
         weights: place.weights,
     }

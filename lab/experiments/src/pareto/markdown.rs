@@ -1,8 +1,8 @@
 //! The comparison as tables of the documentation.
 
 use super::cortex_m::CortexM;
-use super::kept::Kept;
 use super::measure::Results;
+use super::reduced_material::ReducedMaterial;
 use super::statistics::{Spread, percentile};
 use super::summary::VariantSummary;
 use asperity::passes::reduce::Change;
@@ -96,7 +96,7 @@ fn kept(text: &mut String, results: &Results) {
     let kept = &results.kept;
     let median = |values: Vec<f64>| number(percentile(&values, 0.5).map(|x| 100.0 * x), 0);
     let percent_kept = |change: fn(&asperity::passes::reduce::Report) -> Change| {
-        let of = |kept: &Kept| {
+        let of = |kept: &ReducedMaterial| {
             let Change { full, kept } = change(&kept.report);
             (full > 0).then(|| kept as f64 / full as f64)
         };
@@ -123,7 +123,7 @@ fn kept(text: &mut String, results: &Results) {
         largest(|r| r.p95_db),
         largest(|r| r.worst_db),
     );
-    let names = |wanted: &dyn Fn(&Kept) -> bool| -> String {
+    let names = |wanted: &dyn Fn(&ReducedMaterial) -> bool| -> String {
         let some = results
             .materials
             .iter()

@@ -3,7 +3,7 @@
 use super::{
     accuracy::{Errors, Truth},
     cost::{self, CountError, Counter},
-    kept::Kept,
+    reduced_material::ReducedMaterial,
     summary::{Measurement, VariantSummary, summarised},
 };
 use asperity::{
@@ -35,7 +35,7 @@ pub struct Results {
     /// Every variant over all materials, in the order of [`variants`].
     pub summaries: Vec<VariantSummary>,
     /// Each material as `auto` reduces it.
-    pub kept: Vec<Kept>,
+    pub kept: Vec<ReducedMaterial>,
     /// The orders that instructions were counted at.
     pub common: Orders,
     /// Why instructions were not counted although they were wanted.
@@ -106,7 +106,7 @@ pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + S
 struct Measured {
     /// A row for each variant.
     rows: Vec<Measurement>,
-    kept: Kept,
+    kept: ReducedMaterial,
 }
 
 impl Measured {
@@ -134,7 +134,7 @@ impl Measured {
         let bytes = |texture: &TextureModel| cost::bytes(texture, &texture.grid, 16);
         Self {
             rows,
-            kept: Kept {
+            kept: ReducedMaterial {
                 report: reduction.report,
                 orders: (
                     cost::orders(&texture.grid),

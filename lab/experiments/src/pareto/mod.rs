@@ -9,7 +9,7 @@
 //! | [`material`] | the textures that are measured |
 //! | [`accuracy`], [`difference`] | how far a design is from the f64 oracle, at rest and moving |
 //! | [`cost`], [`cortex_m`] | executed instructions, bytes |
-//! | [`kept`] | what `--fidelity auto` keeps of a material |
+//! | [`reduced_material`] | what `--fidelity auto` keeps of a material |
 //! | [`mod@measure`], [`summary`], [`front`] | every design on every material, and which designs no other beats |
 //! | [`noise`], [`statistics`] | seeded noise; percentiles and levels |
 //! | [`json`], [`markdown`] | results as JSON, as tables of the documentation |
@@ -22,11 +22,11 @@ pub mod cost;
 pub mod difference;
 pub mod front;
 pub mod json;
-pub mod kept;
 pub mod kernel;
 pub mod markdown;
 pub mod material;
 pub mod measure;
 pub mod noise;
+pub mod reduced_material;
 pub mod statistics;
 pub mod summary;

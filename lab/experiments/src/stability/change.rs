@@ -9,7 +9,7 @@ use super::error::StabilityError;
 use super::filters::resonant;
 use super::material::Material;
 use super::methods::AllPole;
-use super::row::{Row, Words};
+use super::row::{ScenarioResult, Words};
 use crate::signal::rms;
 
 /// Ticks between changes.
@@ -190,7 +190,7 @@ const FORCE: Words = Words {
 ///
 /// # Errors
 /// None for these textures.
-pub fn rows(seed: u64) -> Result<Vec<Row>, StabilityError> {
+pub fn rows(seed: u64) -> Result<Vec<ScenarioResult>, StabilityError> {
     let (textures, walls) = (textures()?, walls()?);
     let vibration = ours(&textures, seed);
     let at_once_n = step_at_once_n(&walls, seed);

@@ -11,7 +11,7 @@ use super::filters::{random_lsf, resonant};
 use super::material::Material;
 use super::methods::all_pole::is_stable;
 use super::methods::fixed_point::{block_16, q1_15};
-use super::row::{Row, Words};
+use super::row::{ScenarioResult, Words};
 
 /// Number of random filters.
 const FILTERS: usize = 200;
@@ -86,7 +86,7 @@ const BITS: Words = Words {
 
 /// The rows.
 #[must_use]
-pub fn rows(materials: &[Material], seed: u64) -> Vec<Row> {
+pub fn rows(materials: &[Material], seed: u64) -> Vec<ScenarioResult> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let resonances: Vec<Vec<f64>> = (1..49)
         .filter_map(|n| lsf::from_polynomial(&resonant(10.0 * f64::from(n))))

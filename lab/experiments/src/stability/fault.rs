@@ -6,7 +6,7 @@ use asperity_runtime::{Renderer, Sample, State};
 use super::error::StabilityError;
 use super::material::Material;
 use super::methods::Regularised;
-use super::row::{Row, Words};
+use super::row::{ScenarioResult, Words};
 
 /// The tick at which the fault comes, in a stroke of 1000 ticks.
 const FAULT: usize = 300;
@@ -105,7 +105,7 @@ const PEAK: Words = Words {
 ///
 /// # Errors
 /// None for the built-in texture.
-pub fn rows(seed: u64) -> Result<Vec<Row>, StabilityError> {
+pub fn rows(seed: u64) -> Result<Vec<ScenarioResult>, StabilityError> {
     let material = Material::built_in()?;
     let mut rows = Vec::new();
     for (scenario, value) in [

@@ -7,7 +7,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::material::Material;
 use super::methods::all_pole::{is_stable, mixed, polynomials};
 use super::methods::walk::{Walk, walk};
-use super::row::{Row, Words};
+use super::row::{ScenarioResult, Words};
 use asperity_sim::random::unit;
 
 /// Every vertex, and five points of every edge.
@@ -110,7 +110,7 @@ const BORDER: Words = Words {
 
 /// The rows.
 #[must_use]
-pub fn rows(materials: &[Material], seed: u64) -> Vec<Row> {
+pub fn rows(materials: &[Material], seed: u64) -> Vec<ScenarioResult> {
     let mut rows = Vec::new();
     for material in materials {
         let points = on_edges(&material.model.grid);

@@ -1,6 +1,6 @@
 //! The rows as tables of the documentation, one table for each quantity.
 
-use super::row::{Figure, Row, Verdict};
+use super::row::{Figure, ScenarioResult, Verdict};
 use std::fmt::Write as _;
 
 /// Markdown of the rows, in their order.
@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 /// Each theme has a heading, each quantity a table with a column for every method that any of
 /// its rows tries. Skipped rows are marked.
 #[must_use]
-pub fn tables(rows: &[Row]) -> String {
+pub fn tables(rows: &[ScenarioResult]) -> String {
     let mut text = String::new();
     for theme in rows.chunk_by(|x, y| x.theme == y.theme) {
         // Writing to a string cannot fail.
@@ -20,7 +20,7 @@ pub fn tables(rows: &[Row]) -> String {
     text
 }
 
-fn table(text: &mut String, rows: &[Row]) {
+fn table(text: &mut String, rows: &[ScenarioResult]) {
     let mut methods: Vec<&str> = Vec::new();
     for other in rows.iter().flat_map(|row| &row.others) {
         if !methods.contains(&other.method) {

@@ -11,7 +11,7 @@ use super::filters::random_lsf;
 use super::material::{HARD, Material};
 use super::methods::AllPole;
 use super::methods::all_pole::{is_stable, mixed, polynomials};
-use super::row::{Row, Words};
+use super::row::{ScenarioResult, Words};
 use crate::signal::rms;
 use asperity_sim::random::unit;
 
@@ -76,7 +76,7 @@ fn loudest(signal: &[f64]) -> f64 {
 }
 
 /// A query: speed, mm/s, and force, N.
-type Place = (f32, f32);
+type Query = (f32, f32);
 
 /// Which of two places is queried at every tick.
 ///
@@ -91,7 +91,7 @@ fn turns(seed: u64) -> impl Iterator<Item = usize> {
 }
 
 /// The vibration of the runtime while speed and force take turns.
-fn runtime(material: &Material, places: [Place; 2], seed: u64) -> Vec<f64> {
+fn runtime(material: &Material, places: [Query; 2], seed: u64) -> Vec<f64> {
     let fraction = 1.0 - (-f64::from(material.slot.cycle_samples()) / FOLLOW_TICKS).exp();
     let mut vibration = Vibration::new(seed);
     turns(seed)
@@ -107,7 +107,7 @@ fn runtime(material: &Material, places: [Place; 2], seed: u64) -> Vec<f64> {
 }
 
 /// The same vibration by direct forms whose coefficients change at once.
-fn direct(material: &Material, places: [Place; 2], seed: u64) -> Vec<f64> {
+fn direct(material: &Material, places: [Query; 2], seed: u64) -> Vec<f64> {
     let mut filter = AllPole::default();
     let mut noise = Excitation::new(seed);
     let models = places.map(|(speed_mm_s, force_n)| {
@@ -124,7 +124,7 @@ fn direct(material: &Material, places: [Place; 2], seed: u64) -> Vec<f64> {
 }
 
 /// Renders a material at two places that take turns, from a seed.
-type Method = fn(&Material, [Place; 2], u64) -> Vec<f64>;
+type Method = fn(&Material, [Query; 2], u64) -> Vec<f64>;
 
 /// The vibration while the models of a random pair of vertices take turns.
 struct Pair {
@@ -138,7 +138,7 @@ struct Pair {
 fn pairs(material: &Material, seed: u64) -> Vec<Pair> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let sounding = material.model.grid.vertices.iter();
-    let places: Vec<Place> = sounding
+    let places: Vec<Query> = sounding
         .filter(|v| v.sigma_m_s2 > 0.0)
         .map(|v| (v.speed_mm_s as f32, v.force_n as f32))
         .collect();
@@ -185,7 +185,7 @@ const ALTERNATE: Words = Words {
 
 /// The rows.
 #[must_use]
-pub fn rows(materials: &[Material], seed: u64) -> Vec<Row> {
+pub fn rows(materials: &[Material], seed: u64) -> Vec<ScenarioResult> {
     let mut rows = Vec::new();
     let [ours, mixed] = unstable_pairs(seed);
     rows.push(MIX.row(

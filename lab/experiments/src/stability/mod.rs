@@ -39,7 +39,7 @@ pub mod wall;
 use asperity_runtime::Config;
 pub use error::StabilityError;
 pub use material::Material;
-pub use row::{Other, Row, Verdict, Words};
+pub use row::{Other, ScenarioResult, Verdict, Words};
 pub use table::{StabilityOptions, Table, run};
 
 /// The default configuration with a reach that no script leaves: a stroke of 20 s covers metres.

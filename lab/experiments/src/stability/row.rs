@@ -27,7 +27,7 @@ pub enum Verdict {
 
 /// A scenario in which methods fail. Smaller figures are better.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Row {
+pub struct ScenarioResult {
     /// Which part of the tick it tries.
     pub theme: &'static str,
     /// The scenario.
@@ -70,12 +70,12 @@ impl Words {
         ours: f64,
         limit: f64,
         others: &[(&'static str, f64)],
-    ) -> Row {
+    ) -> ScenarioResult {
         let others = others
             .iter()
             .map(|&(method, figure)| Other { method, figure })
             .collect();
-        Row {
+        ScenarioResult {
             theme: self.theme,
             scenario: scenario.into(),
             quantity: self.quantity,
@@ -94,15 +94,15 @@ impl Words {
 
     /// A row that could not run.
     #[must_use]
-    pub fn skipped(self, scenario: impl Into<String>, reason: impl Into<String>) -> Row {
-        Row {
+    pub fn skipped(self, scenario: impl Into<String>, reason: impl Into<String>) -> ScenarioResult {
+        ScenarioResult {
             verdict: Verdict::Skipped(reason.into()),
             ..self.row(scenario, f64::NAN, f64::NAN, &[])
         }
     }
 }
 
-impl fmt::Display for Row {
+impl fmt::Display for ScenarioResult {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let verdict = match &self.verdict {
             Verdict::Pass => "pass",

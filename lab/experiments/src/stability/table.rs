@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use super::error::StabilityError;
-use super::row::{Row, Verdict};
+use super::row::{ScenarioResult, Verdict};
 use super::{change, coefficients, fault, friction, grid, material, mixing, tap, wall};
 
 /// Which materials to try, and the seed.
@@ -22,7 +22,7 @@ pub struct StabilityOptions {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Table {
     /// The rows, theme by theme.
-    pub rows: Vec<Row>,
+    pub rows: Vec<ScenarioResult>,
 }
 
 impl Table {

@@ -5,10 +5,10 @@ use asperity_runtime::{Renderer, Sample, State};
 
 use super::error::StabilityError;
 use super::material::Material;
-use super::row::{Row, Words};
+use super::row::{ScenarioResult, Words};
 
 /// The runtime's output along a path.
-struct Felt {
+struct ForceStats {
     taps: u32,
     /// Largest change of the whole force in a tick, N.
     step_n: f64,
@@ -19,7 +19,7 @@ struct Felt {
 }
 
 /// Renders `ticks` ticks along a path of positions, m.
-fn felt(material: &Material, ticks: usize, path: impl Fn(usize) -> [f64; 3]) -> Felt {
+fn force_stats(material: &Material, ticks: usize, path: impl Fn(usize) -> [f64; 3]) -> ForceStats {
     let renderer = Renderer::new(&unbounded()).expect("the default");
     let mut state = State::new(1);
     let (mut last, mut step_n, mut impulse_n_s, mut friction_n) = ([0.0; 3], 0.0_f64, 0.0, 0.0);
@@ -33,7 +33,7 @@ fn felt(material: &Material, ticks: usize, path: impl Fn(usize) -> [f64; 3]) -> 
         friction_n += f64::from(output.friction_n) / ticks as f64;
         last = force;
     }
-    Felt {
+    ForceStats {
         taps: state.counters().taps,
         step_n,
         impulse_n_s,
@@ -143,7 +143,7 @@ const TWICE: Words = Words {
 ///
 /// # Errors
 /// None for the built-in texture.
-pub fn rows() -> Result<Vec<Row>, StabilityError> {
+pub fn rows() -> Result<Vec<ScenarioResult>, StabilityError> {
     let material = Material::built_in()?;
     let mut rows = Vec::new();
     let mut silent = asperity::sources::builtin::texture();
@@ -170,7 +170,7 @@ pub fn rows() -> Result<Vec<Row>, StabilityError> {
         ),
         ("two taps at 0.4 m/s, 5 ms apart", 300, twice, 2.0),
     ] {
-        let ours = felt(&material, ticks, path);
+        let ours = force_stats(&material, ticks, path);
         let miscount = |taps: f64| (taps - wanted).abs();
         rows.push(CHATTER.row(
             scenario,
@@ -179,15 +179,18 @@ pub fn rows() -> Result<Vec<Row>, StabilityError> {
             &[("every entry", miscount(entries(ticks, path).len() as f64))],
         ));
     }
-    let friction = |material| felt(material, 600, sliding).friction_n;
+    let friction = |material| force_stats(material, 600, sliding).friction_n;
     let (with, without) = (friction(&material), friction(&without_taps));
     let fast = 100.0 * (with / without - 1.0).abs();
     rows.push(SLIDE.row("the landing at 0.1 m/s in a stroke", fast, 0.1, &[]));
 
-    let hard = felt(&material, 300, twice);
+    let hard = force_stats(&material, 300, twice);
     rows.push(STEP.row("two taps at 0.4 m/s, 5 ms apart", hard.step_n, 1.0, &[]));
 
-    let (one, two) = (felt(&material, 300, once), felt(&material, 300, twice));
+    let (one, two) = (
+        force_stats(&material, 300, once),
+        force_stats(&material, 300, twice),
+    );
     let missing = |impulse: f64| 100.0 * (1.0 - impulse / (2.0 * one.impulse_n_s));
     rows.push(TWICE.row(
         "two taps at 0.4 m/s, 5 ms apart",

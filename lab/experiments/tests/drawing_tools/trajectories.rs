@@ -141,7 +141,7 @@ fn debounce(force_n: &mut [f64]) {
 
 /// Totals of rendering a trajectory.
 #[derive(Default)]
-struct Told {
+struct RenderTotals {
     landings: usize,
     /// Landings at which the tool meets the surface.
     met: usize,
@@ -157,7 +157,7 @@ struct Told {
     rests: usize,
 }
 
-impl Told {
+impl RenderTotals {
     fn add(&mut self, other: &Self) {
         self.landings += other.landings;
         self.met += other.met;
@@ -179,7 +179,7 @@ struct Tick {
 }
 
 /// Counts. A tap belongs to a landing at most `late` ticks before it.
-fn told(trajectory: &Trajectory, ticks: &[Tick], late: usize) -> Told {
+fn render_totals(trajectory: &Trajectory, ticks: &[Tick], late: usize) -> RenderTotals {
     let landings: Vec<usize> = trajectory
         .landings()
         .into_iter()
@@ -187,7 +187,7 @@ fn told(trajectory: &Trajectory, ticks: &[Tick], late: usize) -> Told {
         .collect();
     let taps: Vec<usize> = (0..ticks.len()).filter(|n| ticks[*n].tap).collect();
     let belongs = |tap: usize, landing: usize| (landing..=landing + late).contains(&(tap + 1));
-    let mut told = Told {
+    let mut totals = RenderTotals {
         landings: landings.len(),
         met: landings
             .iter()
@@ -201,15 +201,15 @@ fn told(trajectory: &Trajectory, ticks: &[Tick], late: usize) -> Told {
             .iter()
             .filter(|t| !trajectory.landings().iter().any(|l| belongs(**t, *l)))
             .count(),
-        ..Told::default()
+        ..RenderTotals::default()
     };
-    told.peak_n = ticks.iter().map(|t| norm(t.force_n)).fold(0.0, f64::max);
+    totals.peak_n = ticks.iter().map(|t| norm(t.force_n)).fold(0.0, f64::max);
     // 0.1 s after the tool has left, every transient has ended.
     let mut apart = 0;
     for tick in ticks {
         apart = if tick.depth_m > 0.0 { 0 } else { apart + 1 };
         if apart > 100 {
-            told.air_n = told.air_n.max(norm(tick.force_n));
+            totals.air_n = totals.air_n.max(norm(tick.force_n));
         }
     }
     let least = (1e3 * REST.1) as usize;
@@ -219,15 +219,15 @@ fn told(trajectory: &Trajectory, ticks: &[Tick], late: usize) -> Told {
         still = if rests { still + 1 } else { 0 };
         // The end of a rest: the landing has died away long before.
         if still > 0 && still % least == 0 {
-            told.rests += 1;
+            totals.rests += 1;
             let span = n - least / 3..n;
             let change =
                 |n: usize| norm([0, 1, 2].map(|i| ticks[n].force_n[i] - ticks[n - 1].force_n[i]));
             let squares: f64 = span.clone().map(|n| change(n).powi(2)).sum();
-            told.chatter_n = told.chatter_n.max((squares / span.len() as f64).sqrt());
+            totals.chatter_n = totals.chatter_n.max((squares / span.len() as f64).sqrt());
         }
     }
-    told
+    totals
 }
 
 /// The asset's bytes and its stiffness.
@@ -355,7 +355,7 @@ fn hands_that_draw_feel_no_chatter_and_taps_where_they_land() {
                 (lowered.bytes, texture.wall.stiffness_n_m)
             })
             .collect();
-    let (mut rendered, mut felt) = (Told::default(), Told::default());
+    let (mut rendered, mut felt) = (RenderTotals::default(), RenderTotals::default());
     let (mut count, mut total_s) = (0, 0.0);
     for file in files(&folder) {
         let Some(trajectory) = read(&file, seconds) else {
@@ -365,9 +365,9 @@ fn hands_that_draw_feel_no_chatter_and_taps_where_they_land() {
         total_s += 1e-3 * trajectory.at_mm.len() as f64;
         for (bytes, stiffness_n_m) in &assets {
             let ticks = through_render(bytes, &trajectory, *stiffness_n_m);
-            rendered.add(&told(&trajectory, &ticks, 12));
+            rendered.add(&render_totals(&trajectory, &ticks, 12));
             let ticks = over_touch(bytes, &trajectory);
-            felt.add(&told(&trajectory, &ticks, 60));
+            felt.add(&render_totals(&trajectory, &ticks, 60));
         }
     }
     println!("{count} trajectories, {total_s:.0} s, {TEXTURES} textures");
@@ -375,27 +375,27 @@ fn hands_that_draw_feel_no_chatter_and_taps_where_they_land() {
         "| | landings | that meet the surface | with a tap | taps without a landing | peak, N | force in the air, N | rests | change of force a tick at rest, N RMS |"
     );
     println!("|---|---|---|---|---|---|---|---|---|");
-    for (name, told) in [("render", &rendered), ("simulated Touch", &felt)] {
+    for (name, totals) in [("render", &rendered), ("simulated Touch", &felt)] {
         println!(
             "| {name} | {} | {} | {} | {} | {:.2} | {:.3} | {} | {:.3} |",
-            told.landings,
-            told.met,
-            told.tapped,
-            told.stray,
-            told.peak_n,
-            told.air_n,
-            told.rests,
-            told.chatter_n
+            totals.landings,
+            totals.met,
+            totals.tapped,
+            totals.stray,
+            totals.peak_n,
+            totals.air_n,
+            totals.rests,
+            totals.chatter_n
         );
     }
     assert!(count > 0, "{}: no trajectory can be read", folder.display());
     assert_eq!(rendered.tapped, rendered.landings);
     // A hand that presses less than the device rubs does not always get down to the surface.
     assert!(felt.tapped as f64 > MOST_TAPPED * felt.met as f64);
-    for told in [&rendered, &felt] {
-        assert_eq!(told.stray, 0);
-        assert!(told.peak_n <= PEAK_N * (1.0 + 1e-6));
-        assert_eq!(told.air_n, 0.0);
-        assert!(told.rests > 0 && told.chatter_n < CHATTER_N);
+    for totals in [&rendered, &felt] {
+        assert_eq!(totals.stray, 0);
+        assert!(totals.peak_n <= PEAK_N * (1.0 + 1e-6));
+        assert_eq!(totals.air_n, 0.0);
+        assert!(totals.rests > 0 && totals.chatter_n < CHATTER_N);
     }
 }

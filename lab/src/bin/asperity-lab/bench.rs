@@ -5,7 +5,7 @@ use std::{fmt::Write as _, path::PathBuf};
 use asperity::{model::TextureModel, sources::hatt};
 use asperity_console::Console;
 use asperity_experiments::import_accuracy::{
-    self, Figures, MOST_FREE_TAPS, Resonance, Row, Sensors, Strokes, Until,
+    self, Figures, LearningCurvePoint, MOST_FREE_TAPS, Resonance, Sensors, Strokes, Until,
 };
 use asperity_io::diagnostic::{Failures, one};
 
@@ -99,7 +99,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     if let Some(folder) = &arguments.write {
         return write(arguments, &textures[0], folder, console);
     }
-    let mut all: Vec<(Figures, Vec<Row>)> = Vec::new();
+    let mut all: Vec<(Figures, Vec<LearningCurvePoint>)> = Vec::new();
     for &seconds in &arguments.seconds {
         let bar = console.bar(textures.len(), "recording and importing");
         let alter = |sensors: &mut Sensors| arguments.alter(sensors);
@@ -134,7 +134,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     crate::error::all([written, printed.map_err(one)])
 }
 
-fn figures_text(all: &[(Figures, Vec<Row>)]) -> String {
+fn figures_text(all: &[(Figures, Vec<LearningCurvePoint>)]) -> String {
     let mut text = String::from(
         "| seconds of strokes | textures | mean of a texture's cells, median dB | 95 % of the textures, dB | median cell, median dB | cells | 95 % of the cells, dB | within 3 dB, % | 10 dB over noise, % | their 95 % dB | level, mean dB | 95 % of the cells, dB | μ, median % | 95 % | taps, median dB | 95 % dB | vertices |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
     );
@@ -171,7 +171,7 @@ fn figures_text(all: &[(Figures, Vec<Row>)]) -> String {
     text
 }
 
-fn cells_csv(all: &[(Figures, Vec<Row>)]) -> String {
+fn cells_csv(all: &[(Figures, Vec<LearningCurvePoint>)]) -> String {
     let mut csv = String::from(
         "texture,recorded_s,vertices,order,speed_mm_s,force_n,seconds,used_s,over_noise_db,error_db,level_db\n",
     );

@@ -11,7 +11,7 @@ use std::time::Duration;
 use asperity_console::on_interrupt;
 use asperity_host::device::Uri;
 use asperity_host::profile::Profile;
-use asperity_host::servo::privileges::{Grant, Policy, Wanted};
+use asperity_host::servo::privileges::{Grant, Policy, PrivilegeRequest};
 use asperity_host::servo::{Monotonic, Overrun, Settings};
 use asperity_io::diagnostic::{Failures, one};
 use asperity_lab::servo_session::{OpenDevice, ServoSessionError, Surface, open};
@@ -74,11 +74,11 @@ impl LoopOptions {
             None => Surface::built_in(),
             Some(path) => Surface::read(path, self.texture.as_deref()),
         }?;
-        self.in_voice(surface)
+        self.compensated(surface)
     }
 
     /// A surface in the voice of the device's profile, where one was given.
-    pub(crate) fn in_voice(&self, surface: Surface) -> Result<Surface, ServoSessionError> {
+    pub(crate) fn compensated(&self, surface: Surface) -> Result<Surface, ServoSessionError> {
         match self.profile()?.and_then(|profile| profile.compensation) {
             Some(filter) => surface.compensated(&filter),
             None => Ok(surface),
@@ -154,8 +154,8 @@ impl LoopOptions {
         Monotonic::spinning(Duration::from_micros(self.spin))
     }
 
-    pub(crate) fn wanted(&self) -> Wanted {
-        Wanted {
+    pub(crate) fn privileges(&self) -> PrivilegeRequest {
+        PrivilegeRequest {
             policy: self.policy,
             lock_memory: !self.no_lock,
             cpu: self.cpu,

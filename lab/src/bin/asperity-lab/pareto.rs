@@ -8,7 +8,7 @@ use asperity_experiments::pareto::cortex_m::{self, CortexM};
 use asperity_experiments::pareto::measure::{Options, Results, measure, steps};
 use asperity_experiments::pareto::{chart, json, markdown, material};
 use asperity_io::diagnostic::{Failures, one};
-use asperity_io::input::{self, InputError, Kind};
+use asperity_io::input::{self, InputError, InputKind};
 use asperity_io::output;
 
 use crate::error::{Plain, all};
@@ -109,7 +109,7 @@ fn read_counts(path: &Path) -> Result<CortexM, Failures> {
             "give a CSV with the columns factor,name,instructions",
         )
     };
-    let bytes = input::read(path, Kind::Counts).map_err(|problem| {
+    let bytes = input::read(path, InputKind::Counts).map_err(|problem| {
         let file = path.to_owned();
         one(InputError { file, problem })
     })?;

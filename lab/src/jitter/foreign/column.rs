@@ -1,6 +1,6 @@
 //! A column of a table: one latency a line.
 
-use super::unit::{Head, Stated};
+use super::unit::{Head, StatedUnit};
 use super::{Counted, ForeignError, Latency, Unit};
 use asperity_host::servo::Stage;
 use asperity_io::table::{Layout, Table, number, seconds};
@@ -126,9 +126,9 @@ fn counted(
 fn stated(layout: &Layout, head: &Head, at: usize) -> Result<Option<Unit>, ForeignError> {
     let below = layout.units.get(at).map(String::as_str).unwrap_or_default();
     match &head.unit {
-        Stated::Time(unit) => Ok(Some(*unit)),
-        Stated::Nothing => Ok(unit_below(below)),
-        Stated::Other(unit) => Err(ForeignError::OtherUnit {
+        StatedUnit::Time(unit) => Ok(Some(*unit)),
+        StatedUnit::Nothing => Ok(unit_below(below)),
+        StatedUnit::Other(unit) => Err(ForeignError::OtherUnit {
             head: layout.columns[at].clone(),
             unit: unit.clone(),
         }),

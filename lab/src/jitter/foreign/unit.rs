@@ -83,7 +83,7 @@ const OTHER_IN_BRACKETS: [&str; 4] = ["min", "h", "d", "%"];
 
 /// The unit that a head states.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Stated {
+pub(super) enum StatedUnit {
     /// None.
     Nothing,
     /// A unit of time.
@@ -98,7 +98,7 @@ pub(super) struct Head {
     /// The words.
     pub(super) words: Vec<String>,
     /// The unit.
-    pub(super) unit: Stated,
+    pub(super) unit: StatedUnit,
 }
 
 impl Head {
@@ -120,12 +120,12 @@ impl Head {
                 .starts_with(|c: char| c.is_ascii_digit())
         });
         let unit = if let Some(inside) = multiple.filter(|_| is_bracketed) {
-            Stated::Other(inside.trim_end_matches([')', ']', '}']).to_owned())
+            StatedUnit::Other(inside.trim_end_matches([')', ']', '}']).to_owned())
         } else if is_other {
-            Stated::Other(last.to_owned())
+            StatedUnit::Other(last.to_owned())
         } else if let Ok(unit) = last.parse() {
             words.pop();
-            Stated::Time(unit)
+            StatedUnit::Time(unit)
         } else {
             // As in `wakeup_ns_raw`; a single letter within a name is no unit.
             let within = |word: &String| (word.len() > 1).then(|| word.parse().ok()).flatten();
@@ -136,9 +136,9 @@ impl Head {
             match (units.next(), units.next()) {
                 (Some((n, unit)), None) => {
                     words.remove(n);
-                    Stated::Time(unit)
+                    StatedUnit::Time(unit)
                 }
-                _ => Stated::Nothing,
+                _ => StatedUnit::Nothing,
             }
         };
         Self { words, unit }
@@ -225,7 +225,7 @@ mod tests {
             ),
         ] {
             for head in heads.split('|') {
-                assert_eq!(Head::of(head).unit, Stated::Time(unit), "{head}");
+                assert_eq!(Head::of(head).unit, StatedUnit::Time(unit), "{head}");
             }
         }
         for head in [
@@ -238,7 +238,7 @@ mod tests {
             "",
             "x",
         ] {
-            assert_eq!(Head::of(head).unit, Stated::Nothing, "{head}");
+            assert_eq!(Head::of(head).unit, StatedUnit::Nothing, "{head}");
         }
         for head in [
             "latency_cycles",
@@ -248,7 +248,10 @@ mod tests {
             "load (%)",
             "rate_Hz",
         ] {
-            assert!(matches!(Head::of(head).unit, Stated::Other(_)), "{head}");
+            assert!(
+                matches!(Head::of(head).unit, StatedUnit::Other(_)),
+                "{head}"
+            );
         }
         assert_eq!(Head::of("Wakeup Latency (MS)").words, ["wakeup", "latency"]);
     }

@@ -14,7 +14,7 @@ use crate::{
         constants::{ConstantSet, Constants},
     },
 };
-use asperity_io::input::{self, Kind};
+use asperity_io::input::{self, InputKind};
 use rayon::prelude::*;
 use std::{
     collections::BTreeMap,
@@ -255,7 +255,7 @@ fn files(folder: &Path, ending: &str, before: &str) -> Result<Vec<(String, Strin
         let path = entry.map_err(unreadable(folder))?.path();
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         if path.extension().is_some_and(|own| own == ending) && !BESIDE.contains(&&*name) {
-            let text = input::read_text(&path, Kind::Corpus)
+            let text = input::read_text(&path, InputKind::Corpus)
                 .map_err(|problem| unreadable(&path)(problem.into()))?;
             all.push((format!("{before}{name}"), text));
         }

@@ -3,7 +3,7 @@
 use super::{
     EvaluateError, Watch,
     held_out::SAME,
-    retrieval::{Found, TfIdf, Words, found},
+    retrieval::{RetrievalRanks, TfIdf, Words, found},
     statistics::Share,
     subject::Subject,
     watch::pause,
@@ -31,9 +31,9 @@ pub struct Names {
     /// Materials to choose from.
     pub materials: usize,
     /// Their names, by the latent of the model as it is.
-    pub names: Found,
+    pub names: RetrievalRanks,
     /// Their synonyms, by the same.
-    pub synonyms: Found,
+    pub synonyms: RetrievalRanks,
     /// The synonyms, each left out of training; `None` for a model without a memory.
     pub left_out: Option<LeftOut>,
 }
@@ -48,11 +48,11 @@ pub struct LeftOut {
     /// Phrases of the lexicon that were left out as nearly the same, over all parts.
     pub phrases: usize,
     /// By the latent of a text stage that was fitted without them.
-    pub latent: Found,
+    pub latent: RetrievalRanks,
     /// By the cosine of the text vector with the mean text of each material, without them.
-    pub similarity: Found,
+    pub similarity: RetrievalRanks,
     /// TF-IDF over the remaining texts: words, and runs of three characters.
-    pub tfidf: [Found; 2],
+    pub tfidf: [RetrievalRanks; 2],
 }
 
 /// A name of a material.
@@ -77,7 +77,7 @@ pub(super) fn measure(
     let (names, synonyms) = names(corpus, captions, materials);
     watch.begin("names", 1 + FOLDS);
     let anchors = subject.anchors();
-    let shipped = |by: &str, names: &[Name<'_>]| -> Result<Found, EvaluateError> {
+    let shipped = |by: &str, names: &[Name<'_>]| -> Result<RetrievalRanks, EvaluateError> {
         let vectors: Vec<Vec<f32>> = names.iter().map(|name| name.vector.to_vec()).collect();
         let projected = subject.project(&vectors)?;
         let scores = projected.iter().map(|said| scores(&said.z, &anchors));

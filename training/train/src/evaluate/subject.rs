@@ -4,7 +4,7 @@ use super::{
     EvaluateError, cache,
     signature::{Objective, Signature},
 };
-use crate::{attributes::Layout, trained::Seen};
+use crate::{attributes::Layout, trained::Modalities};
 use asperity::{
     learned::{
         Decoded, Files, Latent, LearnedModel, Present, Projected, description::ModelDescription,
@@ -92,15 +92,15 @@ impl Subject {
     pub(super) fn encode(
         &self,
         instances: &[&Instance],
-        seen: Seen,
+        modalities: Modalities,
     ) -> Result<Vec<Latent>, EvaluateError> {
         let means = instances.par_iter().map(|instance| {
             let ar = ar_input(instance);
             let taps = instance.taps_m_s2.as_flattened();
-            self.model.encode(match seen {
-                Seen::Both => Present::Both(&ar, taps),
-                Seen::Ar => Present::Ar(&ar),
-                Seen::Taps => Present::Taps(taps),
+            self.model.encode(match modalities {
+                Modalities::Both => Present::Both(&ar, taps),
+                Modalities::Ar => Present::Ar(&ar),
+                Modalities::Taps => Present::Taps(taps),
             })
         });
         Ok(means.collect::<Result<_, Fault>>()?)

@@ -7,7 +7,7 @@ use super::{
 use crate::{
     captions::{Captions, cosine},
     rng::{Purpose, Stream},
-    trained::{Seen, Trained},
+    trained::{Modalities, Trained},
 };
 use asperity::learned::description::LATENT;
 use asperity_corpus::{BINS, CHANNELS, Corpus, Instance, TAP_SAMPLES, TAPS};
@@ -103,15 +103,15 @@ pub(super) fn check(
         .flat_map(|i| i.taps_m_s2.concat())
         .collect();
     let taps = Tensor::f32(&[count, TAPS, TAP_SAMPLES], taps);
-    for (seen, present) in [
-        (Seen::Both, [1.0, 1.0]),
-        (Seen::Ar, [1.0, 0.0]),
-        (Seen::Taps, [0.0, 1.0]),
+    for (modalities, present) in [
+        (Modalities::Both, [1.0, 1.0]),
+        (Modalities::Ar, [1.0, 0.0]),
+        (Modalities::Taps, [0.0, 1.0]),
     ] {
         let present = Tensor::f32(&[count, 2], present.repeat(count));
         let inputs = [("ar", &ar), ("taps_m_s2", &taps), ("present", &present)];
         let said = run(ENCODER, &inputs)?;
-        let posteriors = trained.encode(&instances, seen);
+        let posteriors = trained.encode(&instances, modalities);
         let means: Vec<f32> = posteriors.iter().flat_map(|p| p.mean).collect();
         let log_variances: Vec<f32> = posteriors.iter().flat_map(|p| p.log_variance).collect();
         compare(ENCODER, &said, "mean", &means)?;

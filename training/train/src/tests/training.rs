@@ -6,7 +6,7 @@ use crate::{
     fit_on,
     rng::{Purpose, Stream},
     synthetic::{self, Silent, WordBag},
-    trained::{Seen, Trained},
+    trained::{Modalities, Trained},
 };
 use asperity::learned::description::LATENT;
 use asperity_corpus::{BINS, Corpus, Instance};
@@ -152,8 +152,8 @@ fn one_modality_is_enough_to_encode() {
     let trained = train(&config);
     let corpus = synthetic::corpus(8, 8);
     let instances: Vec<_> = corpus.materials.iter().map(|m| &m.prototype).collect();
-    for seen in [Seen::Ar, Seen::Taps, Seen::Both] {
-        let posteriors = trained.encode(&instances, seen);
+    for modalities in [Modalities::Ar, Modalities::Taps, Modalities::Both] {
+        let posteriors = trained.encode(&instances, modalities);
         assert_eq!(posteriors.len(), 8);
         let finite = |x: &[f32]| x.iter().all(|x| x.is_finite());
         assert!(posteriors.iter().all(|p| finite(&p.log_variance)));
@@ -167,12 +167,12 @@ fn one_modality_is_enough_to_encode() {
             .map(|(own, back)| (level(own), level(back)))
             .collect();
         let along = correlation(&pairs);
-        println!("{seen:?}: {along:.2}");
-        assert!(along > 0.5, "{seen:?}: {along}");
+        println!("{modalities:?}: {along:.2}");
+        assert!(along > 0.5, "{modalities:?}: {along}");
     }
     assert_ne!(
-        trained.encode(&instances, Seen::Ar),
-        trained.encode(&instances, Seen::Both)
+        trained.encode(&instances, Modalities::Ar),
+        trained.encode(&instances, Modalities::Both)
     );
 }
 

@@ -1,8 +1,8 @@
 //! Savings and costs of `--fidelity auto`, a point for each material.
 
 use super::errors::BUDGET;
-use crate::pareto::kept::Kept;
 use crate::pareto::measure::Results;
+use crate::pareto::reduced_material::ReducedMaterial;
 use asperity::passes::reduce::BUDGET_DB;
 use asperity_plot::{Axis, Canvas, Key, Marker, Panel, PlotError, Rect, Stroke, ink};
 
@@ -13,7 +13,7 @@ pub(super) fn draw(results: &Results) -> Result<Vec<u8>, PlotError> {
     let half = SIZE.0 as f32 / 2.0;
     let count = results.kept.len() as f64;
     let materials = || Axis::new("Materials, sorted", 0.0, count + 1.0);
-    let ranked = |value: &dyn Fn(&Kept) -> Option<f64>| -> Vec<(f64, f64)> {
+    let ranked = |value: &dyn Fn(&ReducedMaterial) -> Option<f64>| -> Vec<(f64, f64)> {
         let mut values: Vec<f64> = results.kept.iter().filter_map(value).collect();
         values.sort_by(f64::total_cmp);
         (1..).map(f64::from).zip(values).collect()

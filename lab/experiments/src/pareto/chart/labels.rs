@@ -8,22 +8,22 @@ const LEADER: Stroke = Stroke::new(ink::GREY, 1.0);
 /// The places that are taken.
 pub(super) struct Labels {
     area: Rect,
-    taken: Vec<Rect>,
+    occupied: Vec<Rect>,
 }
 
 impl Labels {
     /// Labels for a panel's area; no name may cover one of the points.
     pub(super) fn new(area: Rect, points: impl IntoIterator<Item = (f32, f32)>) -> Self {
-        let taken = points
+        let occupied = points
             .into_iter()
             .map(|(x, y)| Rect::new(x - 7.0, y - 7.0, 14.0, 14.0))
             .collect();
-        Self { area, taken }
+        Self { area, occupied }
     }
 
     /// Keeps names out of a rectangle.
     fn reserve(&mut self, rect: Rect) {
-        self.taken.push(rect);
+        self.occupied.push(rect);
     }
 
     /// Keeps names off a line of horizontal and vertical pieces.
@@ -55,7 +55,7 @@ impl Labels {
                 && rect.right() <= self.area.right() - 4.0
                 && rect.y >= self.area.y + 4.0
                 && rect.bottom() <= self.area.bottom() - 4.0;
-            inside && !self.taken.iter().any(|other| overlap(other, &rect))
+            inside && !self.occupied.iter().any(|other| overlap(other, &rect))
         });
         if let Some((left, middle)) = free {
             let near = (x.clamp(left, left + width), middle);
@@ -64,7 +64,7 @@ impl Labels {
                 canvas.line(&[at, (near.0, edge)], LEADER, None);
             }
             canvas.text(text, (left, middle), &style);
-            self.taken
+            self.occupied
                 .push(Rect::new(left, middle - 0.5 * height, width, height));
         }
     }

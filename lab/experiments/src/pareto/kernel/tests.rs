@@ -5,7 +5,7 @@ use super::Kernel;
 use asperity::{
     model::{
         ModelGrid, Numerator,
-        mixture::{Field, Place},
+        mixture::{BarycentricPoint, Field},
     },
     passes::reduce::order::Fits,
     signal::{
@@ -30,7 +30,7 @@ fn arma() -> ModelGrid {
     grid
 }
 
-fn places(grid: &ModelGrid, count: usize) -> Vec<Place> {
+fn places(grid: &ModelGrid, count: usize) -> Vec<BarycentricPoint> {
     let field = Field::new(grid);
     (0..count)
         .map(|n| {
@@ -97,7 +97,7 @@ fn every_shape_is_exact_at_a_vertex() {
         };
         let mut kernel = Kernel::new(&design, &grid).unwrap();
         for (index, vertex) in grid.vertices.iter().enumerate() {
-            kernel.settle(&Place {
+            kernel.settle(&BarycentricPoint {
                 vertices: [index; 3],
                 weights: [0.2, 0.3, 0.5],
             });

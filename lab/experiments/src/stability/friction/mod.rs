@@ -15,7 +15,7 @@ use super::{
     error::StabilityError,
     material::Material,
     observer::Absorber,
-    row::{Row, Words},
+    row::{ScenarioResult, Words},
 };
 use crate::stability::observer::Observer;
 use asperity_runtime::Renderer;
@@ -50,7 +50,7 @@ fn by_law(
     limit: f64,
     mu: f64,
     figure: impl Fn(&mut Law) -> f64,
-) -> Row {
+) -> ScenarioResult {
     let [ours, paper, reference] = laws(mu, 0).map(|(name, mut law)| (name, figure(&mut law)));
     words.row(scenario, ours.1, limit, &[paper, reference])
 }
@@ -109,7 +109,7 @@ const HAND: Words = Words {
 ///
 /// # Errors
 /// None for the built-in files.
-pub fn rows(seed: u64) -> Result<Vec<Row>, StabilityError> {
+pub fn rows(seed: u64) -> Result<Vec<ScenarioResult>, StabilityError> {
     let each = |figure: &dyn Fn(usize) -> f64| {
         let [(_, _), (paper, _), (reference, _)] = laws(MU, 0);
         (figure(0), [(paper, figure(1)), (reference, figure(2))])

@@ -10,7 +10,7 @@ pub use sweep::{given_j, law_j, lowered_walls, ours_j};
 use super::{
     error::StabilityError,
     material::Material,
-    row::{Row, Words},
+    row::{ScenarioResult, Words},
 };
 use crate::stability::observer::{Absorber, Observer};
 use asperity_runtime::MechanicsConfig;
@@ -58,7 +58,7 @@ const LOST: Words = Words {
 ///
 /// # Errors
 /// None for the built-in files.
-pub fn rows(seed: u64) -> Result<Vec<Row>, StabilityError> {
+pub fn rows(seed: u64) -> Result<Vec<ScenarioResult>, StabilityError> {
     let silent = Material::silent(REPORTED.0, REPORTED.1)?;
     let mut rows = Vec::new();
     for delay in 0..=3 {

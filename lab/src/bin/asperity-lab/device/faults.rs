@@ -6,7 +6,7 @@ use asperity_console::Console;
 use asperity_formats::Asset;
 use asperity_host::device::Scheme;
 use asperity_host::device::fault_injection::InjectedFault;
-use asperity_host::device::fault_injection::trial::{Paced, Row, Trial};
+use asperity_host::device::fault_injection::trial::{FaultResponse, Paced, Trial};
 use asperity_io::diagnostic::{Failures, one};
 use asperity_io::shown::counted;
 use asperity_lab::servo_session;
@@ -97,7 +97,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
     let mut rows = Vec::new();
     for kind in InjectedFault::ALL {
         activity.set_message(format!("{}: hold still", kind.name()));
-        let mut row = Row::default();
+        let mut row = FaultResponse::default();
         for _ in 0..TRIES {
             row = trial
                 .run(&mut device, kind, |_| ())
@@ -110,7 +110,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
     }
     activity.finish_and_clear();
     let slew_n = config.limits.slew_n_s / config.servo_rate_hz;
-    let broken = |kind, row: &Row| row.broken(kind, config.limits.peak_n, slew_n);
+    let broken = |kind, row: &FaultResponse| row.broken(kind, config.limits.peak_n, slew_n);
     let kept = rows
         .iter()
         .all(|(kind, row)| row.disturbed > 0 || broken(*kind, row).is_none());
@@ -143,11 +143,11 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<bool, Failu
 /// The rows in the form of docs/faults.md.
 fn table(
     name: &str,
-    rows: &[(InjectedFault, Row)],
-    broken: impl Fn(InjectedFault, &Row) -> Option<&'static str>,
+    rows: &[(InjectedFault, FaultResponse)],
+    broken: impl Fn(InjectedFault, &FaultResponse) -> Option<&'static str>,
 ) -> String {
     let lines = rows.iter().map(|(kind, row)| row.line(*kind, name));
-    let mut text: String = std::iter::once(Row::TABLE_HEAD.to_owned())
+    let mut text: String = std::iter::once(FaultResponse::TABLE_HEAD.to_owned())
         .chain(lines)
         .collect();
     for (kind, row) in rows {

@@ -1,7 +1,7 @@
 //! Inventory of the devices that can be opened here, as text and as JSON.
 
-use asperity_host::device::usb::scan::{Access, Found, refuse};
-use asperity_host::device::usb::{Kind, UsbError};
+use asperity_host::device::usb::scan::{Access, UsbDevice, refuse};
+use asperity_host::device::usb::{DeviceKind, UsbError};
 use asperity_host::device::vendor_library::LibraryError;
 use asperity_host::device::{dhd, openhaptics};
 use asperity_io::shown::{counted, plain};
@@ -13,7 +13,7 @@ const ANYWHERE: [&str; 3] = ["sim:", "null:", "replay:FILE"];
 /// The devices and vendor libraries found on this machine.
 pub(super) struct Inventory {
     /// USB devices, or why the bus cannot be scanned.
-    pub(super) usb: Result<Vec<Found>, UsbError>,
+    pub(super) usb: Result<Vec<UsbDevice>, UsbError>,
     pub(super) libraries: Vec<VendorLibrary>,
     /// True if unsupported devices are listed too.
     pub(super) all: bool,
@@ -87,7 +87,7 @@ impl VendorLibrary {
 }
 
 impl Inventory {
-    fn shown(&self) -> Vec<&Found> {
+    fn shown(&self) -> Vec<&UsbDevice> {
         let found = self.usb.iter().flatten();
         found
             .filter(|found| self.all || found.kind.is_some())
@@ -143,18 +143,18 @@ impl Inventory {
 }
 
 /// The name to open a device by, if it can be opened over USB.
-fn uri(found: &Found) -> Option<String> {
+fn uri(found: &UsbDevice) -> Option<String> {
     let which = found.serial.clone();
     let which = which.unwrap_or_else(|| format!("{}-{}", found.bus, found.address));
     match found.kind? {
-        Kind::Falcon => Some(format!("falcon:{which}")),
-        Kind::Touch => Some(format!("touch:{which}")),
+        DeviceKind::Falcon => Some(format!("falcon:{which}")),
+        DeviceKind::Touch => Some(format!("touch:{which}")),
     }
 }
 
-fn state(found: &Found) -> (&'static str, String) {
+fn state(found: &UsbDevice) -> (&'static str, String) {
     match (&found.access, found.kind) {
-        (Access::Ready, Some(Kind::Touch)) => (
+        (Access::Ready, Some(DeviceKind::Touch)) => (
             "identified",
             "identified only; to drive it, use its vendor's library: openhaptics:".into(),
         ),
@@ -170,7 +170,7 @@ fn state(found: &Found) -> (&'static str, String) {
 }
 
 /// Formats the entry of a USB device.
-fn line(found: &Found) -> String {
+fn line(found: &UsbDevice) -> String {
     // What a device says of itself is no part of our text.
     let serial = found.serial.as_deref().map(plain);
     let serial = serial.as_deref().unwrap_or("no serial number");
@@ -189,7 +189,7 @@ fn line(found: &Found) -> String {
     text
 }
 
-pub(super) fn value(found: &Found) -> Value {
+pub(super) fn value(found: &UsbDevice) -> Value {
     let mut value = json!({
         "name": found.name,
         "kind": found.kind,
@@ -213,8 +213,8 @@ mod tests {
 
     use super::*;
 
-    fn found(access: Access, kind: Option<Kind>) -> Found {
-        Found {
+    fn found(access: Access, kind: Option<DeviceKind>) -> UsbDevice {
+        UsbDevice {
             bus: 1,
             address: 7,
             vendor: 0x0403,
@@ -240,7 +240,7 @@ mod tests {
         }
     }
 
-    fn inventory(usb: Result<Vec<Found>, UsbError>) -> Inventory {
+    fn inventory(usb: Result<Vec<UsbDevice>, UsbError>) -> Inventory {
         Inventory {
             usb,
             libraries: vec![missing()],
@@ -250,7 +250,7 @@ mod tests {
 
     #[test]
     fn every_state_says_what_is_so_and_what_to_do() {
-        let falcon = Some(Kind::Falcon);
+        let falcon = Some(DeviceKind::Falcon);
         let failed = Access::Failed("Input/Output Error".into());
         for (usb, state, words) in [
             (
@@ -292,7 +292,7 @@ mod tests {
                 ["ready: falcon:", "AB"],
             ),
             (
-                Ok(vec![found(Access::Ready, Some(Kind::Touch))]),
+                Ok(vec![found(Access::Ready, Some(DeviceKind::Touch))]),
                 Some("identified"),
                 ["its vendor's library", "openhaptics:"],
             ),

@@ -171,16 +171,16 @@ fn summary(port: &Port<AnyDevice>) -> String {
     );
     match &port.device {
         AnyDevice::Falcon(falcon) => {
-            let felt = falcon.grip.felt();
+            let stats = falcon.grip.motor_stats();
             format!(
                 "{faults}; {}: at most {:.2} N, {} counts, and steps of {} counts; {} before homing, \
                  {} right after plugging in",
-                counted(felt.commands, "command", "commands"),
-                felt.largest_force_n,
-                felt.largest_count,
-                felt.largest_step,
-                counted(felt.unhomed_forces, "force", "forces"),
-                felt.pushes_at_first
+                counted(stats.commands, "command", "commands"),
+                stats.largest_force_n,
+                stats.largest_count,
+                stats.largest_step,
+                counted(stats.unhomed_forces, "force", "forces"),
+                stats.pushes_at_first
             )
         }
         AnyDevice::Touch(touch) => format!(

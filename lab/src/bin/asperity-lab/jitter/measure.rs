@@ -76,7 +76,7 @@ pub(super) fn measure(arguments: &Arguments, console: Console) -> Result<(), Fai
         config: opened.config(rate_hz),
         settings: settings.clone(),
         clock: options.clock(),
-        wanted: options.wanted(),
+        privileges: options.privileges(),
         injection: arguments.inject,
         seed: options.seed(&opened),
         stop,

@@ -6,7 +6,7 @@ use asperity_console::Console;
 use asperity_host::latency::{self, Run, is_log, read_log, write_log};
 use asperity_io::{
     diagnostic::{Diagnostic as _, Failures, one},
-    input::{self, InputError, Kind},
+    input::{self, InputError, InputKind},
     output::{Outputs, display},
 };
 use asperity_lab::jitter::{
@@ -24,7 +24,7 @@ fn file_of(path: &Path) -> PathBuf {
 }
 
 fn bytes_of(path: &Path) -> Result<Vec<u8>, Failures> {
-    input::read(path, Kind::Log).map_err(|problem| {
+    input::read(path, InputKind::Log).map_err(|problem| {
         let file = path.to_owned();
         one(InputError { file, problem })
     })

@@ -17,7 +17,7 @@ use asperity_host::servo::{Pace, queues};
 use asperity_io::diagnostic::{Failures, one};
 use asperity_io::output::{NewFolder, OutputError, OutputId, Outputs};
 use asperity_lab::capture::{
-    self, About, Coverage, FILES, Kind, Plan, Reader, Sensor, Simulated, Take,
+    self, About, Coverage, FILES, Plan, Reader, Sensor, SensorKind, Simulated, Take,
 };
 use asperity_lab::servo_session::{OpenDevice, Setup, Surface, run as run_loop, run_passive};
 use asperity_recording::description::Quantity;
@@ -140,7 +140,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     let interrupt = stop_on_interrupt()?;
     let scheme = arguments.device.scheme;
     let is_simulated = matches!(scheme, Scheme::Sim | Scheme::Replay);
-    if arguments.accel.kind == Kind::Simulated && !is_simulated {
+    if arguments.accel.kind == SensorKind::Simulated && !is_simulated {
         return Err(Plain::usage(
             "--accel sim: needs a simulated device, but --device is a real one",
             "give the accelerometer, such as --accel serial:/dev/ttyACM0, or use --device sim:",
@@ -161,16 +161,16 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     let (to_sensor, lines) = sync_channel(PIECES);
     let reader = arguments.accel.open(lines).map_err(one)?;
     let reader = match arguments.accel.kind {
-        Kind::Simulated => reader,
+        SensorKind::Simulated => reader,
         _ => wait_for_sensor(reader, &interrupt)?,
     };
     let measures_load = reader
-        .told()
-        .is_some_and(|told| told.layout.load().is_some());
+        .description()
+        .is_some_and(|description| description.layout.load().is_some());
     if !is_played && !measures_load {
         let has_force = reader
-            .told()
-            .is_some_and(|told| told.layout.has(Quantity::Force));
+            .description()
+            .is_some_and(|description| description.layout.has(Quantity::Force));
         let what = if has_force {
             "the sensor measures a force, but not the one along z"
         } else {
@@ -187,7 +187,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     for unconfirmed in &opened.device.description().unconfirmed {
         console.warn(unconfirmed);
     }
-    let simulated = (arguments.accel.kind == Kind::Simulated).then(|| {
+    let simulated = (arguments.accel.kind == SensorKind::Simulated).then(|| {
         let mass_kg = surface.as_ref().map_or(MASS_KG, effective_mass_kg);
         (
             Simulated::new(f64::from(rate_hz), mass_kg, arguments.accel.seed),
@@ -292,7 +292,7 @@ fn outputs(arguments: &Arguments) -> Result<(Outputs, Vec<OutputId>), Failures> 
 /// Waits for the first sample of a sensor.
 fn wait_for_sensor(reader: Reader, interrupt: &Interrupt) -> Result<Reader, Failures> {
     loop {
-        if reader.told().is_some() {
+        if reader.description().is_some() {
             return Ok(reader);
         }
         if interrupt.stop.load(Relaxed) {
@@ -334,7 +334,7 @@ fn run_on(
         config: opened.config(rate_hz),
         settings: options.settings(opened, rate_hz, Some(arguments.seconds)),
         clock: options.clock(),
-        wanted: options.wanted(),
+        privileges: options.privileges(),
         injection: None,
         seed: options.seed(opened),
         stop: &end_of_run,

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use asperity_lab::capture::{Ask, Exploration, TAPS_M_S};
+use asperity_lab::capture::{Exploration, NextStep, TAPS_M_S};
 
 /// Blocks of a cell that is covered.
 const BLOCKS: usize = 4;
@@ -51,14 +51,14 @@ pub(super) fn grid(exploration: &Exploration) -> String {
 pub(super) fn ask(exploration: &Exploration) -> String {
     let coverage = exploration.coverage();
     let now = exploration.now();
-    match exploration.ask() {
-        Ask::Air => "hold the tool still in the air, and tap it once with a finger".into(),
-        Ask::Tap(band) => format!(
+    match exploration.next_step() {
+        NextStep::Air => "hold the tool still in the air, and tap it once with a finger".into(),
+        NextStep::Tap(band) => format!(
             "tap the surface at {:.0} to {:.0} mm/s, and lift the tool in between",
             1e3 * TAPS_M_S[band],
             1e3 * TAPS_M_S[band + 1]
         ),
-        Ask::Stroke((speed, force)) => {
+        NextStep::Stroke((speed, force)) => {
             let (speeds, forces) = (coverage.speed(speed), coverage.force(force));
             let [slow, fast] = speeds;
             let [light, hard] = forces;
@@ -74,7 +74,7 @@ pub(super) fn ask(exploration: &Exploration) -> String {
             };
             format!("stroke at {slow} to {fast} mm/s with {light} to {hard} N{hints}")
         }
-        Ask::Nothing => "done".into(),
+        NextStep::Nothing => "done".into(),
     }
 }
 

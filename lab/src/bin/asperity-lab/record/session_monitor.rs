@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use asperity_console::Console;
 use asperity_host::servo::{self, Clock as _, Monotonic, RecordReader, Report};
 use asperity_io::diagnostic::{Failures, one};
-use asperity_lab::capture::{Ask, Counts, Reader, Simulated, Take};
+use asperity_lab::capture::{Counts, NextStep, Reader, Simulated, Take};
 use asperity_lab::servo_session::Attended;
 use indicatif::ProgressBar;
 
@@ -134,7 +134,7 @@ impl SessionMonitor {
     fn ends(&mut self, stop: &AtomicBool, is_gone: bool) -> Option<End> {
         if stop.load(Relaxed) {
             Some(End::Asked)
-        } else if self.take.exploration().ask() == Ask::Nothing {
+        } else if self.take.exploration().next_step() == NextStep::Nothing {
             Some(End::Covered)
         } else if self.take.is_full() {
             Some(End::Full)
@@ -165,8 +165,8 @@ impl SessionMonitor {
         // A device fault is reported only if the device stays away.
         while record_reader.event().is_some() {}
         while let Some(batch) = self.reader.batch() {
-            if let Some(told) = self.reader.told() {
-                self.take.batch(told, &batch);
+            if let Some(description) = self.reader.description() {
+                self.take.batch(description, &batch);
             }
         }
     }
@@ -175,8 +175,8 @@ impl SessionMonitor {
     pub(super) fn finish(mut self) -> Recorded {
         self.status.finish_and_clear();
         while let Some(batch) = self.reader.batch() {
-            if let Some(told) = self.reader.told() {
-                self.take.batch(told, &batch);
+            if let Some(description) = self.reader.description() {
+                self.take.batch(description, &batch);
             }
         }
         let lost_samples = self.reader.lost() - self.unused;

@@ -7,7 +7,8 @@ use asperity_host::servo::{Record, Stage};
 use asperity_io::diagnostic::{Failures, one, texts};
 use asperity_lab::servo_session::Surface;
 use asperity_studio::{
-    Collection, Limits, LiveDevice, LiveStatus, LiveTick, Percentiles, Server, Studio, Wanted, show,
+    Collection, Limits, LiveDevice, LiveStatus, LiveTick, Percentiles, RequestedTexture, Server,
+    Studio, show,
 };
 use hdrhistogram::Histogram;
 
@@ -112,7 +113,7 @@ impl Live {
     }
 
     /// The texture that the page wants played.
-    pub(super) fn wanted(&self) -> Option<Wanted> {
+    pub(super) fn wanted(&self) -> Option<RequestedTexture> {
         self.device.wanted()
     }
 

@@ -163,7 +163,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
             config: config.clone(),
             settings: options.settings(&opened, rate_hz, left.map(|left| left.max(0.0))),
             clock: options.clock(),
-            wanted: options.wanted(),
+            privileges: options.privileges(),
             injection: None,
             seed,
             stop: &end_of_run,

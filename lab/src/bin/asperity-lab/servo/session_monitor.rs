@@ -18,7 +18,7 @@ use indicatif::ProgressBar;
 
 use super::Arguments;
 use super::live::Live;
-use super::summary::{self, ServoSummary, Told};
+use super::summary::{self, ServoSummary, SessionOutcome};
 use crate::loop_options::{LoopOptions, refusals};
 
 /// Time between two looks at the queues.
@@ -236,7 +236,7 @@ impl<'c> SessionMonitor<'c> {
         let wanted = self.live.as_ref()?.wanted()?;
         let origin = format!("the studio's {:?}", wanted.name);
         let surface = Surface::of_texture(wanted.asset.to_vec(), origin.clone());
-        match surface.and_then(|surface| self.options.in_voice(surface)) {
+        match surface.and_then(|surface| self.options.compensated(surface)) {
             Ok(surface) => Some(surface),
             Err(error) => {
                 self.say(&format!(
@@ -313,7 +313,7 @@ impl<'c> SessionMonitor<'c> {
         if let Some(live) = &mut self.live {
             live.end();
         }
-        let mut told = Told {
+        let mut outcome = SessionOutcome {
             lost: self.lost,
             reloads: self.reloads,
             playing: self.playing().cloned(),
@@ -321,7 +321,7 @@ impl<'c> SessionMonitor<'c> {
         };
         let mut failure = Ok(());
         if let Some(recorder) = self.recorder {
-            told.lost += recorder.lost();
+            outcome.lost += recorder.lost();
             let path = recorder.path().to_owned();
             let written = recorder.finish(self.lost).map_err(one);
             let committed = written.and_then(|written| {
@@ -329,24 +329,24 @@ impl<'c> SessionMonitor<'c> {
                 Ok(written.ticks)
             });
             match committed {
-                Ok(ticks) => told.recorded = Some((path, ticks)),
+                Ok(ticks) => outcome.recorded = Some((path, ticks)),
                 Err(error) => failure = Err(error),
             }
         }
-        if told.lost > 0 {
+        if outcome.lost > 0 {
             self.console.warn(&format!(
                 "{} lost because reading or writing was too slow; the ticks themselves ran",
-                counted(told.lost, "record was", "records were")
+                counted(outcome.lost, "record was", "records were")
             ));
         }
         // The session is reported even where its record was lost.
         if self.json {
             self.console
-                .json(&summary::json(session, &told))
+                .json(&summary::json(session, &outcome))
                 .map_err(one)?;
         } else {
             self.console
-                .text(&summary::text(session, &told))
+                .text(&summary::text(session, &outcome))
                 .map_err(one)?;
         }
         failure

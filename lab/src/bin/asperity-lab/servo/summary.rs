@@ -19,7 +19,7 @@ pub(super) struct ServoSummary<'s> {
 }
 
 /// The session's losses, reloads and output.
-pub(super) struct Told {
+pub(super) struct SessionOutcome {
     /// Records that were lost.
     pub(super) lost: u64,
     /// Textures that were loaded anew.
@@ -40,14 +40,14 @@ fn end(report: &Report) -> &'static str {
 }
 
 /// Name and origin of what played last.
-fn playing<'s>(session: &'s ServoSummary<'_>, told: &'s Told) -> (&'s str, &'s str) {
+fn playing<'s>(session: &'s ServoSummary<'_>, outcome: &'s SessionOutcome) -> (&'s str, &'s str) {
     let surface = session.surface;
     let first = (surface.name.as_str(), surface.origin.as_str());
-    let last = told.playing.as_ref();
+    let last = outcome.playing.as_ref();
     last.map_or(first, |(name, origin)| (name, origin))
 }
 
-pub(super) fn json(session: &ServoSummary<'_>, told: &Told) -> Value {
+pub(super) fn json(session: &ServoSummary<'_>, outcome: &SessionOutcome) -> Value {
     let ServoSummary {
         report,
         device,
@@ -55,7 +55,7 @@ pub(super) fn json(session: &ServoSummary<'_>, told: &Told) -> Value {
         repeated,
         ..
     } = session;
-    let (name, origin) = playing(session, told);
+    let (name, origin) = playing(session, outcome);
     let repeated =
         repeated.map(|(forces, different)| json!({ "forces": forces, "different": different }));
     json!({
@@ -70,13 +70,13 @@ pub(super) fn json(session: &ServoSummary<'_>, told: &Told) -> Value {
         "safe_states": report.counters.faults, "taps": report.counters.taps,
         "peak_limited": report.counters.peak_limited,
         "slew_limited": report.counters.slew_limited,
-        "lost_records": told.lost, "reloads": told.reloads,
-        "recorded_ticks": told.recorded.as_ref().map(|(_, ticks)| ticks),
+        "lost_records": outcome.lost, "reloads": outcome.reloads,
+        "recorded_ticks": outcome.recorded.as_ref().map(|(_, ticks)| ticks),
         "replay": repeated,
     })
 }
 
-pub(super) fn text(session: &ServoSummary<'_>, told: &Told) -> String {
+pub(super) fn text(session: &ServoSummary<'_>, outcome: &SessionOutcome) -> String {
     let ServoSummary {
         report,
         device,
@@ -84,7 +84,7 @@ pub(super) fn text(session: &ServoSummary<'_>, told: &Told) -> String {
         repeated,
         ..
     } = session;
-    let (name, origin) = playing(session, told);
+    let (name, origin) = playing(session, outcome);
     let mut text = format!(
         "surface    {}, {}\ndevice     {device}\nloop       {rate_hz} Hz, {}, {} missed, longest gap {:.3} ms\n",
         name,
@@ -120,7 +120,7 @@ pub(super) fn text(session: &ServoSummary<'_>, told: &Told) -> String {
         }
         None => {}
     }
-    if let Some((path, ticks)) = &told.recorded {
+    if let Some((path, ticks)) = &outcome.recorded {
         let ticks = counted(*ticks, "tick", "ticks");
         text += &format!("record     {}, {ticks}\n", display(path));
     }

@@ -9,7 +9,7 @@ mod kmeans;
 pub(super) use collapse::Collapse;
 
 use super::{EvaluateError, Watch, data, subject::Subject, watch::pause};
-use crate::trained::Seen;
+use crate::trained::Modalities;
 use asperity::learned::Latent;
 use asperity_corpus::Corpus;
 use serde::{Deserialize, Serialize};
@@ -44,7 +44,7 @@ pub struct Indices {
 
 /// Indices of some instances through some encoders.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Row {
+pub struct EncoderIndices {
     /// `training` or `unseen`.
     pub instances: String,
     /// `AR + taps`, `AR` or `taps`.
@@ -63,7 +63,7 @@ pub struct Clustering {
     /// True if the taps of the corpus were synthesised.
     pub taps_synthetic: bool,
     /// All combinations.
-    pub rows: Vec<Row>,
+    pub rows: Vec<EncoderIndices>,
     /// On training instances, through both encoders.
     pub collapse: Collapse,
     /// On unseen ones.
@@ -87,19 +87,19 @@ pub(super) fn measure(
     for (name, corpus) in [("training", training), ("unseen", unseen)] {
         let (instances, labels) = data::labelled(corpus, materials);
         count = instances.len();
-        for (encoder, seen) in [
-            ("AR + taps", Seen::Both),
-            ("AR", Seen::Ar),
-            ("taps", Seen::Taps),
+        for (encoder, modalities) in [
+            ("AR + taps", Modalities::Both),
+            ("AR", Modalities::Ar),
+            ("taps", Modalities::Taps),
         ] {
             pause(watch, WHAT)?;
-            let latents = subject.encode(&instances, seen)?;
-            rows.push(Row {
+            let latents = subject.encode(&instances, modalities)?;
+            rows.push(EncoderIndices {
                 instances: name.into(),
                 encoder: encoder.into(),
                 indices: indices(&latents, &labels, seed),
             });
-            if seen == Seen::Both {
+            if modalities == Modalities::Both {
                 let decoded = subject.decode(&latents)?;
                 let decoded: Vec<_> = decoded.iter().map(|t| &t.instance).collect();
                 collapses.push(Collapse::of(&instances, &decoded, &latents, &labels));

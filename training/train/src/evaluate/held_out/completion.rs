@@ -18,7 +18,7 @@ use crate::{
         signature::{Distance, Signature},
         statistics::{Share, Spread, mean},
     },
-    trained::{Seen, Trained},
+    trained::{Modalities, Trained},
 };
 use serde::{Deserialize, Serialize};
 
@@ -50,10 +50,10 @@ impl Given {
         }
     }
 
-    fn seen(self) -> Seen {
+    fn modalities(self) -> Modalities {
         match self {
-            Self::Ar => Seen::Ar,
-            Self::Taps => Seen::Taps,
+            Self::Ar => Modalities::Ar,
+            Self::Taps => Modalities::Taps,
         }
     }
 
@@ -181,8 +181,8 @@ fn complete(
         .iter()
         .map(|&p| &corpus.materials[setting.materials[p]].prototype)
         .collect();
-    let decoded = |seen: Seen| -> Vec<Signature> {
-        let posteriors = trained.encode(&prototypes, seen);
+    let decoded = |modalities: Modalities| -> Vec<Signature> {
+        let posteriors = trained.encode(&prototypes, modalities);
         let latents: Vec<_> = posteriors.into_iter().map(|p| p.mean).collect();
         let instances = trained.decode(&latents);
         let pairs = instances.iter().zip(held_out);
@@ -193,11 +193,11 @@ fn complete(
             })
             .collect()
     };
-    let both = decoded(Seen::Both);
+    let both = decoded(Modalities::Both);
     Given::ALL
         .iter()
         .map(|given| {
-            let completed = decoded(given.seen());
+            let completed = decoded(given.modalities());
             let rows = held_out.iter().zip(completed.iter().zip(&both));
             rows.map(|(&p, (completed, both))| {
                 let truth = &setting.signatures[p];

@@ -11,7 +11,7 @@ use crate::{
     error::FitError,
     evaluate::{EvaluateError, Watch, signature::Signature, statistics::mean, watch::Training},
     fit::fit_on,
-    trained::{Seen, Trained},
+    trained::{Modalities, Trained},
 };
 use asperity::learned::{
     Latent,
@@ -77,7 +77,7 @@ pub(super) fn run(
     let (trained, positions) = train(setting, held_out, what, watch)?;
     let training: Vec<usize> = positions.iter().map(|&p| setting.materials[p]).collect();
     let anchors = anchors(&trained, corpus);
-    let asked = Asked {
+    let fold = TrainedFold {
         setting,
         trained: &trained,
         anchors: &anchors,
@@ -85,7 +85,7 @@ pub(super) fn run(
         positions: &positions,
         phrases,
     };
-    Ok(asked.all(held_out))
+    Ok(fold.all(held_out))
 }
 
 /// Trains without the materials at the positions `held_out`; the positions of the
@@ -116,7 +116,7 @@ pub(super) fn train(
 }
 
 /// A trained fold and its baselines.
-struct Asked<'a> {
+struct TrainedFold<'a> {
     setting: &'a Setting<'a>,
     trained: &'a Trained,
     anchors: &'a [Anchor],
@@ -126,7 +126,7 @@ struct Asked<'a> {
     phrases: usize,
 }
 
-impl Asked<'_> {
+impl TrainedFold<'_> {
     fn all(&self, held_out: &[usize]) -> Fold {
         let mut materials = Vec::new();
         let mut trials = Vec::new();
@@ -138,9 +138,9 @@ impl Asked<'_> {
             let material = &self.setting.corpus.materials[index];
             let own = &self.setting.signatures[position];
             let mut sums = [[0.0; METRICS]; PREDICTORS];
-            let asked = self.material(index);
-            let count = asked.len().max(1) as f64;
-            for (similarity, predictions) in asked {
+            let predicted = self.material(index);
+            let count = predicted.len().max(1) as f64;
+            for (similarity, predictions) in predicted {
                 for (predictor, prediction) in predictions.iter().enumerate() {
                     let found = errors(prediction, own);
                     for (sum, x) in sums[predictor].iter_mut().zip(found) {
@@ -184,7 +184,7 @@ impl Asked<'_> {
         let vectors: Vec<&[f32]> = captions.held_out[index].iter().map(Vec::as_slice).collect();
         let latents = self.trained.project(&vectors);
         let prototype = &corpus.materials[index].prototype;
-        let own = self.trained.encode(&[prototype], Seen::Both);
+        let own = self.trained.encode(&[prototype], Modalities::Both);
         let own: Vec<Latent> = own.iter().map(|posterior| posterior.mean).collect();
         let own = self.decode(&own);
         let decoded = self.decode(&latents);

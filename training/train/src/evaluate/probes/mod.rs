@@ -3,7 +3,7 @@
 mod prompts;
 
 use prompts::Change;
-pub(super) use prompts::{Attribute, Direction, Kind, Probes, sources};
+pub(super) use prompts::{Attribute, ChangeKind, Direction, Probes, sources};
 
 use super::{
     EvaluateError, Watch,
@@ -118,7 +118,7 @@ impl Probing {
 }
 
 /// Decoded attributes of a prompt, and those of its nearest neighbours in text.
-struct Felt {
+struct PromptAttributes {
     decoded: Objective,
     material: Objective,
     phrase: Rating,
@@ -161,7 +161,7 @@ pub(super) fn measure(
         }
     });
     let ranked = Attribute::ALL.iter().map(|&attribute| {
-        let pairs = |value: fn(&Felt, Attribute) -> f64| {
+        let pairs = |value: fn(&PromptAttributes, Attribute) -> f64| {
             let pairs = pairs.of(attribute).iter();
             pairs.map(move |[more, less]| (value(of(more), attribute), value(of(less), attribute)))
         };
@@ -207,7 +207,7 @@ fn ask<'p>(
     texts: &Texts<'_>,
     prompts: &[&'p str],
     watch: &mut dyn Watch,
-) -> Result<BTreeMap<&'p str, Felt>, EvaluateError> {
+) -> Result<BTreeMap<&'p str, PromptAttributes>, EvaluateError> {
     texts.learn(prompts.iter().copied(), watch)?;
     let mut distinct = prompts.to_vec();
     distinct.sort_unstable();
@@ -227,7 +227,7 @@ fn ask<'p>(
             .iter()
             .map(|phrase| dot(vector, &phrase.vector))
             .collect();
-        Felt {
+        PromptAttributes {
             decoded,
             material: known.materials[nearest(&said.similarity)].objective,
             phrase: known

@@ -38,7 +38,7 @@ impl Attribute {
 /// Kind of change to a prompt.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Kind {
+pub enum ChangeKind {
     /// "not", "without", "no".
     Negation,
     /// "less", "more".
@@ -70,7 +70,7 @@ pub struct Direction {
     /// Where to.
     pub change: Change,
     /// Kind of the change.
-    pub kind: Kind,
+    pub kind: ChangeKind,
 }
 
 /// A material that latents are mixed between, under its names in both corpora.

@@ -3,7 +3,7 @@
 use super::bars::{self, Bar, Chart, Group};
 use crate::evaluate::{
     held_out::{Folds, HeldOut, Predictor},
-    probes::{Attribute, Kind, Probing},
+    probes::{Attribute, ChangeKind, Probing},
     statistics::Share,
 };
 use asperity::learned::description::CertaintyCurve;
@@ -137,9 +137,9 @@ pub(super) fn probes(part: &Probing) -> Result<Vec<u8>, PlotError> {
         high: share.high,
     };
     let directions: Vec<Group> = [
-        ("negation", Kind::Negation),
-        ("less, more", Kind::Comparative),
-        ("degree", Kind::Degree),
+        ("negation", ChangeKind::Negation),
+        ("less, more", ChangeKind::Comparative),
+        ("degree", ChangeKind::Degree),
     ]
     .into_iter()
     .map(|(name, kind)| Group {

@@ -1,7 +1,7 @@
 //! Section 4.
 
 use super::{percent, row, table};
-use crate::evaluate::probes::{Attribute, Baseline, Direction, Kind, Order, Probing};
+use crate::evaluate::probes::{Attribute, Baseline, ChangeKind, Direction, Order, Probing};
 
 pub(super) fn section(part: &Probing) -> String {
     let mut text = String::from(
@@ -28,9 +28,9 @@ pub(super) fn section(part: &Probing) -> String {
     );
     text += &table(&["changed by", "rough", "slippery", "hard", "all"]);
     let kinds = [
-        ("negation", Some(Kind::Negation)),
-        ("less, more", Some(Kind::Comparative)),
-        ("degree", Some(Kind::Degree)),
+        ("negation", Some(ChangeKind::Negation)),
+        ("less, more", Some(ChangeKind::Comparative)),
+        ("degree", Some(ChangeKind::Degree)),
         ("all", None),
     ];
     for (name, kind) in kinds {
@@ -64,7 +64,7 @@ pub(super) fn section(part: &Probing) -> String {
     text += &table(&["prompts", "sharp_hz", "rough_db", "in order"]);
     part.orders.iter().for_each(|order| text += &line(order));
     let (negation, all) = (
-        part.right(|d| d.kind == Kind::Negation),
+        part.right(|d| d.kind == ChangeKind::Negation),
         part.right(|_| true),
     );
     text += &format!(

@@ -1,7 +1,7 @@
 //! Section 2.
 
 use super::{percent, row, table};
-use crate::evaluate::retrieval::{Found, Retrieval};
+use crate::evaluate::retrieval::{Retrieval, RetrievalRanks};
 
 pub(super) fn section(part: &Retrieval) -> String {
     let mut text = format!(
@@ -46,7 +46,7 @@ pub(super) fn section(part: &Retrieval) -> String {
     text
 }
 
-pub(super) fn line(found: &Found) -> String {
+pub(super) fn line(found: &RetrievalRanks) -> String {
     row(&[
         found.by.clone(),
         percent(found.top_1),

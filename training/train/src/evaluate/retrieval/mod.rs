@@ -15,7 +15,7 @@ pub(super) use tfidf::{TfIdf, Words};
 
 /// Ranks of the right material, by one way of asking.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Found {
+pub struct RetrievalRanks {
     /// Query form.
     pub by: String,
     /// First of all.
@@ -36,17 +36,17 @@ pub struct Retrieval {
     /// Captions asked with.
     pub captions: usize,
     /// By the latent.
-    pub latent: Found,
+    pub latent: RetrievalRanks,
     /// By the network's `similarity` output: the text encoder alone.
-    pub similarity: Found,
+    pub similarity: RetrievalRanks,
     /// TF-IDF with all words, and without stop words.
-    pub tfidf: [Found; 2],
+    pub tfidf: [RetrievalRanks; 2],
 }
 
 impl Retrieval {
     /// The better of the two TF-IDFs.
     #[must_use]
-    pub fn baseline(&self) -> &Found {
+    pub fn baseline(&self) -> &RetrievalRanks {
         let [all, content] = &self.tfidf;
         if all.top_1.hits > content.top_1.hits {
             all
@@ -109,10 +109,14 @@ pub(super) fn measure(
     })
 }
 
-pub(super) fn found(by: &str, own: &[usize], scores: impl Iterator<Item = Vec<f64>>) -> Found {
+pub(super) fn found(
+    by: &str,
+    own: &[usize],
+    scores: impl Iterator<Item = Vec<f64>>,
+) -> RetrievalRanks {
     let ranks: Vec<f64> = scores.zip(own).map(|(s, &own)| rank(&s, own)).collect();
     let reciprocal: f64 = ranks.iter().map(|rank| 1.0 / rank).sum();
-    Found {
+    RetrievalRanks {
         by: by.into(),
         top_1: Share::of(ranks.iter().map(|&rank| rank <= 1.0)),
         top_5: Share::of(ranks.iter().map(|&rank| rank <= 5.0)),

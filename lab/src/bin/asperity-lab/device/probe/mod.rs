@@ -7,9 +7,9 @@ use std::time::{Duration, Instant};
 
 use asperity_console::Console;
 use asperity_host::device::falcon::on_usb;
-use asperity_host::device::touch::{Face, identify};
+use asperity_host::device::touch::{UsbPresentation, identify};
 use asperity_host::device::usb::scan::scan;
-use asperity_host::device::usb::{Ids, Kind, UsbError};
+use asperity_host::device::usb::{DeviceKind, Ids, UsbError};
 use asperity_host::device::{Device, DeviceError, Scheme, Uri};
 use asperity_io::diagnostic::{Diagnostic as _, Failures, one};
 use asperity_io::output::Outputs;
@@ -131,8 +131,8 @@ fn plugged_in() -> Result<Vec<Uri>, Failures> {
         .filter_map(|found| {
             Some(Uri {
                 scheme: match found.kind? {
-                    Kind::Falcon => Scheme::Falcon,
-                    Kind::Touch => Scheme::Touch,
+                    DeviceKind::Falcon => Scheme::Falcon,
+                    DeviceKind::Touch => Scheme::Touch,
                 },
                 which: format!("{}-{}", found.bus, found.address),
                 settings: Vec::new(),
@@ -330,7 +330,7 @@ fn touch(uri: &Uri) -> Result<Probed, Problem> {
     let ids = Ids::load(uri.setting("ids").map(std::path::Path::new));
     let ids = ids.map_err(|error| refuse(error.into()))?;
     let found = identify(&ids, &uri.which).map_err(refuse)?;
-    let face = Face::of(&found).sentence();
+    let face = UsbPresentation::of(&found).sentence();
     let limits =
         "Its protocol is not public: nothing was sent to it, and it cannot be felt over USB.";
     let next = "Install the vendor's OpenHaptics and its driver, and use openhaptics:.";

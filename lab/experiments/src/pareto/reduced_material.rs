@@ -5,7 +5,7 @@ use asperity_kernels::workload::Orders;
 
 /// A material after `--fidelity auto`.
 #[derive(Debug, Clone)]
-pub struct Kept {
+pub struct ReducedMaterial {
     /// The reduction, and its error.
     pub report: reduce::Report,
     /// Orders of the whole texture and of the reduced one.
@@ -16,7 +16,7 @@ pub struct Kept {
     pub bytes: Option<(usize, usize)>,
 }
 
-impl Kept {
+impl ReducedMaterial {
     /// Instructions on the reduced texture divided by those on the whole one.
     #[must_use]
     pub fn ratio(&self) -> Option<f64> {

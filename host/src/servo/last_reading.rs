@@ -4,12 +4,12 @@ use crate::device::{Description, Device, DeviceError, Reading};
 
 /// A device and its last reading.
 #[derive(Debug)]
-pub(super) struct Heard<'d, D: ?Sized> {
+pub(super) struct LastReading<'d, D: ?Sized> {
     device: &'d mut D,
     last: Result<Reading, DeviceError>,
 }
 
-impl<'d, D: ?Sized> Heard<'d, D> {
+impl<'d, D: ?Sized> LastReading<'d, D> {
     pub(super) fn new(device: &'d mut D) -> Self {
         Self {
             device,
@@ -23,7 +23,7 @@ impl<'d, D: ?Sized> Heard<'d, D> {
     }
 }
 
-impl<D: Device + ?Sized> Device for Heard<'_, D> {
+impl<D: Device + ?Sized> Device for LastReading<'_, D> {
     fn description(&self) -> &Description {
         self.device.description()
     }

@@ -40,7 +40,7 @@ impl Edit {
 
 /// Result of an edit.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Worded {
+pub struct EditResult {
     /// The latents after it.
     pub latents: Latents,
     /// The steps that its words ask for, after the blend towards a material.
@@ -56,9 +56,14 @@ impl LatentEditor<'_> {
     ///
     /// # Errors
     /// As [`edited`](Self::edited) and [`worded`](Self::worded).
-    pub fn edit(&self, latents: &Latents, edit: &Edit, request: &Request) -> Result<Worded, Fault> {
+    pub fn edit(
+        &self,
+        latents: &Latents,
+        edit: &Edit,
+        request: &Request,
+    ) -> Result<EditResult, Fault> {
         match edit {
-            Edit::Steps(sliders) => Ok(Worded {
+            Edit::Steps(sliders) => Ok(EditResult {
                 latents: self.edited(latents, sliders, request)?,
                 sliders: *sliders,
                 towards: None,
@@ -80,7 +85,7 @@ impl LatentEditor<'_> {
         latents: &Latents,
         text: &str,
         request: &Request,
-    ) -> Result<Worded, Fault> {
+    ) -> Result<EditResult, Fault> {
         let asked = relative(text);
         if asked.is_nothing() {
             return Err(not_understood(format_args!("the edit {text:?}")).usage());
@@ -97,7 +102,7 @@ impl LatentEditor<'_> {
         let now = cache.kept(&start)?;
         let shift = from_base(&base, &now, &asked.changes);
         let sliders = steps(&self.scale, &now, &shift);
-        Ok(Worded {
+        Ok(EditResult {
             latents: self.searched(&start, &sliders, &cache)?,
             sliders,
             towards: asked.towards,

@@ -1,6 +1,6 @@
 //! Spans of made timelines, spectra against their definitions.
 
-use super::{analyser::lags, stationary::WHITENER, *};
+use super::{analyser::lags, spans::IN_AIR, stationary::WHITENER, *};
 use crate::{
     signal::{noise::white, spectrum::hann},
     test_recordings::{near, timeline},
@@ -430,4 +430,30 @@ fn levels_follow_the_power_law_of_the_recording() {
         assert!((level / exact - 1.0).abs() < 0.15, "{level} {exact}");
     }
     assert_eq!(Law::of(&[]), Law::default());
+}
+
+#[test]
+fn the_noise_of_the_sensors_is_known_to_two_percent_in_spite_of_knocks() {
+    let analyser = Analyser::new();
+    let mut axes: Vec<Vec<f64>> = (1..=3).map(|seed| white(seed, 20_000, 12)).collect();
+    let exact: f64 = axes
+        .iter()
+        .map(|axis| axis.iter().map(|x| x * x).sum::<f64>() / axis.len() as f64)
+        .sum();
+    // Every fifth stretch has a knock.
+    for start in (0..20_000).step_by(5 * IN_AIR) {
+        for (n, a) in axes[0][start + 100..start + 140].iter_mut().enumerate() {
+            *a += 20.0 * libm::sin(n as f64);
+        }
+    }
+    let air: Vec<_> = (0..20_000 / IN_AIR)
+        .map(|n| analyser.spectrum(&axes, n * IN_AIR, IN_AIR))
+        .collect();
+    let all = air.len();
+    let rest = at_rest(air);
+    assert!(rest.len() > 3 * all / 4, "{} of {all}", rest.len());
+    let (lags, power): (Vec<_>, Vec<_>) = rest.into_iter().unzip();
+    let (level, flat) = (average(&lags)[0], mean(&average(&power)));
+    assert!((level / exact - 1.0).abs() < 0.02, "{level} {exact}");
+    assert!((flat / exact - 1.0).abs() < 0.02, "{flat} {exact}");
 }
