@@ -23,7 +23,7 @@ use crate::{
     stage::{
         friction_law::{FactorLookup, FrictionLaw},
         recursion::{InnerProduct, Recursion},
-        tap::interpolation::TapBank,
+        tap::bank::TapBank,
         upsample::Upsampler,
     },
     update::plan::Plan,
