@@ -1,7 +1,7 @@
 // The field: typing, suggestions, history, and what the server said against the prompt.
 
 import { element, find, showRefusal } from "./dom.js";
-import { History } from "./history.js";
+import { History } from "./prompt-history.js";
 import { Suggestions } from "./suggest.js";
 import { texts } from "./texts.js";
 

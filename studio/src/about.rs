@@ -3,7 +3,6 @@
 use crate::{
     VERSION,
     device::{Description, LiveDevice},
-    export::{MODULE, OFFERED},
     library_store::LibraryHandle,
     prompts::Prompts,
 };
@@ -15,6 +14,11 @@ use asperity::{
     },
 };
 use serde::Serialize;
+
+/// Files of a texture that a page of static files offers for download.
+pub(crate) const OFFERED: [&str; 3] = ["asp", "png", "normal.png"];
+/// The file of the compiler beside such a page.
+pub(crate) const MODULE: &str = "compiler.wasm";
 
 /// The answer of the interface.
 #[derive(Serialize)]

@@ -2,9 +2,8 @@
 //! asked for.
 
 use crate::{
-    error::ApiError,
+    error::{ApiError, refused},
     http::Status,
-    opening::refused,
     recipe::{Opened, Operation},
     row::{TextureSummary, columns},
     texture::{Making, Texture, damaged},

@@ -1,6 +1,9 @@
 //! Differences between two libraries. Textures are compared in pairs, so that neither library is in memory as a whole.
 
-use crate::{collection::Collection, error::ApiError, opening::refused};
+use crate::{
+    collection::Collection,
+    error::{ApiError, refused},
+};
 use asperity::library::{Difference, LoadedLibrary, diff};
 use rayon::prelude::*;
 use std::collections::BTreeMap;

@@ -64,3 +64,11 @@ impl ApiError {
         serde_json::to_vec(&body).unwrap_or_default()
     }
 }
+
+/// Returns the error of a request with a bad file: the request itself is valid.
+pub(crate) fn refused(error: &dyn Diagnostic) -> ApiError {
+    ApiError {
+        status: Status::Unprocessable,
+        ..ApiError::of(error)
+    }
+}

@@ -2,7 +2,7 @@
 //! everything that it asks for by GET.
 
 use crate::{
-    about::Served,
+    about::{MODULE, OFFERED, Served},
     collection::Collection,
     download::Download,
     error::ApiError,
@@ -28,12 +28,8 @@ use std::{
 };
 use thiserror::Error;
 
-/// Files of a texture that such a page offers for download.
-pub(crate) const OFFERED: [&str; 3] = ["asp", "png", "normal.png"];
 /// File that the page itself also loads.
 const LOADED: &str = "worklet.asp";
-/// The file of the compiler.
-pub(crate) const MODULE: &str = "compiler.wasm";
 /// Before which the policy stands in the page, since a static server sends none.
 const BEFORE_POLICY: &str = "<meta name=\"viewport\"";
 

@@ -2,7 +2,7 @@
 
 use crate::{
     collection::Collection,
-    error::ApiError,
+    error::{ApiError, refused},
     http::Status,
     recipe::{Opened, Operation},
     texture::{Making, Texture, damaged, hash},
@@ -15,7 +15,6 @@ use asperity::{
 };
 use asperity_io::{
     clock::now,
-    diagnostic::Diagnostic,
     input::{Format, InputError, InputProblem},
 };
 use std::path::Path;
@@ -109,12 +108,4 @@ fn import(imported: Imported, file: &str, bytes: &[u8]) -> Result<Texture, ApiEr
         file: opened,
     };
     Texture::new(compiled.lowered.bytes, making, operation).map_err(damaged)
-}
-
-/// Returns the error of a request with a bad file: the request itself is valid.
-pub(crate) fn refused(error: &dyn Diagnostic) -> ApiError {
-    ApiError {
-        status: Status::Unprocessable,
-        ..ApiError::of(error)
-    }
 }

@@ -26,9 +26,10 @@ pub(crate) const FILES: &[File] = files! {
     "text/css; charset=utf-8": "studio.css" "device/device.css" "files/files.css" "gallery/gallery.css" "output/output.css" "plots/plots.css"
         "steer/steer.css";
     "text/javascript; charset=utf-8":
-        "auto.js" "devices.js" "dom.js" "events.js" "force.js" "hand-panel.js" "hand.js" "history.js" "keys.js" "limiter.js"
-        "lit.js" "loader.js" "path.js" "pointer.js" "prompt.js" "reading.js" "readout.js" "server.js" "sound-panel.js"
-        "sound.js" "studio.js" "suggest.js" "surface.js" "texts.js" "texture-panels.js" "view.js" "worklet.js"
+        "auto.js" "devices.js" "dom.js" "events.js" "force.js" "hand-panel.js" "hand.js" "keys.js" "limiter.js"
+        "lit.js" "loader.js" "path.js" "pointer.js" "prompt-history.js" "prompt.js" "reading.js" "readout.js"
+        "server.js" "sound-panel.js" "sound.js" "studio.js" "suggest.js" "surface.js" "texts.js" "texture-panels.js"
+        "view.js" "worklet.js"
         "device/feed.js" "device/jitter.js" "device/panel.js"
         "files/in.js" "files/out.js" "files/pack.js"
         "gallery/attributes.js" "gallery/compare.js" "gallery/filters.js" "gallery/gallery.js" "gallery/grid.js"

@@ -8,8 +8,8 @@ use std::{
 };
 
 /// Folders of the product.
-const PRODUCT: [&str; 7] = [
-    "bindings", "compiler", "formats", "host", "lab", "runtime", "studio",
+const PRODUCT: [&str; 8] = [
+    "bindings", "cli", "compiler", "formats", "host", "lab", "runtime", "studio",
 ];
 
 /// The package of a source file.

@@ -2,8 +2,8 @@
 
 use crate::{
     arguments::{Fidelity, Preview, Seed},
+    contents::Texture,
     error::{self, Failure},
-    texture::Texture,
 };
 use asperity::{
     driver::{self, Compiled},

@@ -2,10 +2,10 @@
 
 use crate::{
     arguments::{Seed, within},
+    contents::Texture,
     error::Failure,
     library::Library,
     records::{of_fields, value},
-    texture::Texture,
 };
 use asperity::{
     interchange::{

@@ -3,8 +3,8 @@
 use crate::{
     arguments::{Fidelity, Preview, within},
     author,
+    contents::Texture,
     error::{self, Failure},
-    texture::Texture,
     watch::watched,
 };
 use asperity::{

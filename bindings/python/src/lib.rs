@@ -50,6 +50,8 @@ mod _native {
     #[pymodule_export]
     use crate::build::build;
     #[pymodule_export]
+    use crate::contents::Texture;
+    #[pymodule_export]
     use crate::export::export;
     #[pymodule_export]
     use crate::import::{builtin, import_effect, import_hatt, import_model, import_recording};
@@ -68,7 +70,7 @@ mod _native {
     #[pymodule_export]
     use crate::scene::Scene;
     #[pymodule_export]
-    use crate::texture::{Texture, plot};
+    use crate::texture::plot;
 
     #[pymodule_export]
     #[allow(non_upper_case_globals, reason = "Python's name")]

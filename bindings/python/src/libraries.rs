@@ -1,6 +1,6 @@
 //! `asperity.merge` and `diff`, and what they read.
 
-use crate::{error::Failure, library::Library, records, texture::Texture};
+use crate::{contents::Texture, error::Failure, library::Library, records};
 use asperity::library::{self, LoadedLibrary};
 use asperity_io::output;
 use pyo3::prelude::*;

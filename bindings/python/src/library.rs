@@ -2,11 +2,9 @@
 
 use crate::{
     arguments::{Choice, within},
-    contents::Contents,
+    contents::{Contents, Texture},
     error::{Failure, stopped},
     records,
-    scene::Scene,
-    texture::Texture,
 };
 use asperity::{
     emit::{
@@ -161,16 +159,8 @@ impl Library {
         &self.names
     }
 
-    /// As Python has it: a scene where it has surfaces.
-    pub(crate) fn into_python(self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        if self.has_scene()? {
-            Scene::over(self, py)
-        } else {
-            Ok(Py::new(py, self)?.into_any())
-        }
-    }
-
-    fn has_scene(&self) -> Result<bool, Failure> {
+    /// Returns true if it has surfaces.
+    pub(crate) fn has_scene(&self) -> Result<bool, Failure> {
         Ok(match &self.storage {
             Storage::File(textures) => held(textures).has_scene(),
             Storage::Memory(_) => !self.surfaces()?.is_empty(),

@@ -2,10 +2,9 @@
 
 use crate::{
     arguments::{Choice, Origin},
-    contents::Contents,
+    contents::{Contents, Texture},
     error::Failure,
     library::Library,
-    texture::Texture,
 };
 use asperity::emit::textures::{Textures, TexturesError, TexturesProblem};
 use pyo3::{IntoPyObjectExt as _, prelude::*};

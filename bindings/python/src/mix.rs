@@ -3,8 +3,8 @@
 use crate::{
     arguments::{Preview, within},
     author::{self, PromptCompiler},
+    contents::Texture,
     error::{self, Failure},
-    texture::Texture,
 };
 use asperity::{
     driver,

@@ -3,13 +3,13 @@
 use crate::{
     arguments::{Seed, Solid},
     columns::Columns,
+    contents::Texture,
     error::Failure,
     motion,
     output::Output,
     records::{of_fields, with_fields},
     scene::Scene,
     servo::{self, Servo, ServoError},
-    texture::Texture,
 };
 use asperity::views::render::check_textures;
 use asperity_formats::{FormatError, Library};

@@ -17,11 +17,15 @@ use pyo3::{PyClassInitializer, prelude::*};
 #[pyclass(frozen, extends = Library, module = "asperity")]
 pub(crate) struct Scene;
 
-impl Scene {
-    /// The scene of a library that has one.
-    pub(crate) fn over(library: Library, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        let scene = PyClassInitializer::from(library).add_subclass(Self);
-        Ok(Py::new(py, scene)?.into_any())
+impl Library {
+    /// As Python has it: a scene where it has surfaces.
+    pub(crate) fn into_python(self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        if self.has_scene()? {
+            let scene = PyClassInitializer::from(self).add_subclass(Scene);
+            Ok(Py::new(py, scene)?.into_any())
+        } else {
+            Ok(Py::new(py, self)?.into_any())
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use crate::{
     arguments::Preview,
     arrays,
     author::PromptCompiler,
-    contents::Contents,
+    contents::{Contents, Texture},
     error::Failure,
     mix::{self, Mixing},
     records::{of_fields, parsed, record, value},
@@ -13,77 +13,17 @@ use asperity::{
     emit::{lower::LowerError, sections::renamed},
     library::check_name,
     sources::latents::Edit,
-    views::inspect::Document,
 };
 use asperity_io::output;
 use pyo3::{
     IntoPyObjectExt as _,
     prelude::*,
-    sync::PyOnceLock,
     types::{PyBytes, PyList},
 };
 use std::{
     hash::{DefaultHasher, Hash as _, Hasher as _},
     path::{Path, PathBuf},
 };
-
-/// A haptic texture: a compiled, verified asset.
-///
-/// Textures come from `compile`, `load`, `blend`, the imports and `builtin`. A texture does not
-/// change; what it holds is read when it is first asked for.
-///
-/// Parameters
-/// ----------
-/// data : bytes
-///     The bytes of an asset (.asp).
-///
-/// Raises
-/// ------
-/// AsperityError
-///     Where the bytes are no valid asset.
-///
-/// Examples
-/// --------
-/// >>> import asperity
-/// >>> texture = asperity.builtin()
-/// >>> texture.grid.lsf_rad.shape == (len(texture.grid.force_n), texture.grid.order)
-/// True
-#[pyclass(frozen, eq, module = "asperity")]
-pub(crate) struct Texture {
-    pub(crate) contents: Contents,
-    /// JSON: what the source had to say.
-    report: Option<String>,
-    grid: PyOnceLock<Py<PyAny>>,
-    taps: PyOnceLock<Py<PyAny>>,
-}
-
-impl PartialEq for Texture {
-    fn eq(&self, other: &Self) -> bool {
-        self.contents.bytes() == other.contents.bytes()
-    }
-}
-
-impl Texture {
-    /// A texture of checked bytes, with the report of what made it.
-    pub(crate) fn new(contents: Contents, report: Option<String>) -> Self {
-        Self {
-            contents,
-            report,
-            grid: PyOnceLock::new(),
-            taps: PyOnceLock::new(),
-        }
-    }
-
-    /// A texture that the compiler has just made.
-    pub(crate) fn made(bytes: Vec<u8>, report: Option<String>) -> Result<Self, Failure> {
-        let contents = Contents::new(bytes, Path::new("texture"), None)?;
-        Ok(Self::new(contents, report))
-    }
-
-    fn document(&self) -> Result<&Document, Failure> {
-        self.contents.document()
-    }
-}
 
 #[pymethods]
 impl Texture {

@@ -24,7 +24,7 @@ use crate::{
         contact_law::ContactLaw,
         friction_law::{FactorLookup, FrictionLaw},
         recursion::{InnerProduct, Recursion},
-        tap::interpolation::TapBank,
+        tap::bank::TapBank,
         upsample::Upsampler,
     },
     update::plan::Plan,

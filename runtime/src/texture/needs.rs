@@ -3,7 +3,7 @@
 use crate::{
     capacity::{Capacity, HostCapacities},
     load_error::LoadError,
-    stage::{tap::interpolation::TapBank, upsample::ticks_per_sample},
+    stage::{tap::bank::TapBank, upsample::ticks_per_sample},
 };
 use asperity_formats::Asset;
 

@@ -119,6 +119,7 @@ fn is_fresh(program: &Path, root: &Path) -> bool {
         "host",
         "compiler",
         "studio",
+        "cli",
         "device-sim",
         "lab",
         "training",

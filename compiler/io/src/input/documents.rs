@@ -1,9 +1,10 @@
-//! Formats of texts: by how they begin, or by the keys of their JSON.
+//! Detection of a file's format, whatever its name: by its first bytes, by what its text declares, or by the keys of
+//! its JSON.
 
 use super::{
     format::{Format, HEAD, Unread},
     lenient_json::lenient_json,
-    signatures::{GLTF, PLIST, named, unread, without_mark},
+    signatures::{self, GLTF, PLIST, named, unread, without_mark},
 };
 use serde::de::{
     DeserializeSeed, Deserializer, Error as _, IgnoredAny, MapAccess, SeqAccess, Visitor,
@@ -23,8 +24,21 @@ const REFUSAL: Unread = unread(
     "download the file again, from the address of the file itself",
 );
 
+impl Format {
+    /// The format of a file, or of its beginning; `None` for one that is not known.
+    #[must_use]
+    pub fn of(bytes: &[u8]) -> Option<Self> {
+        Self::of_magic(bytes).or_else(|| of_json(bytes))
+    }
+
+    /// The format without a look at the keys of JSON.
+    pub(super) fn of_magic(bytes: &[u8]) -> Option<Self> {
+        signatures::of(bytes).or_else(|| of_text(bytes))
+    }
+}
+
 /// The format of a text, without a look at the keys of JSON.
-pub(super) fn of_text(bytes: &[u8]) -> Option<Format> {
+fn of_text(bytes: &[u8]) -> Option<Format> {
     let text = without_mark(bytes).trim_ascii_start();
     let head = &text[..text.len().min(HEAD)];
     let has = |part: &str| head.windows(part.len()).any(|w| w == part.as_bytes());
@@ -130,7 +144,7 @@ fn of_xml(text: &[u8]) -> Option<Format> {
 }
 
 /// A format by the keys of an object.
-pub(super) fn of_json(bytes: &[u8]) -> Option<Format> {
+fn of_json(bytes: &[u8]) -> Option<Format> {
     let bytes = without_mark(bytes);
     if bytes.trim_ascii_start().first() != Some(&b'{') {
         return None;

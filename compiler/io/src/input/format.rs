@@ -1,7 +1,4 @@
-//! Detection of a file's format, whatever its name: by its first bytes, by what its text declares, or by the keys of
-//! its JSON.
-
-use super::{documents, signatures};
+//! The formats that are known, with their names and remedies.
 
 /// Bytes in which the parts of an archive or the root of a document are looked for.
 pub const HEAD: usize = 8192;
@@ -50,17 +47,6 @@ pub struct Unread {
 }
 
 impl Format {
-    /// The format of a file, or of its beginning; `None` for one that is not known.
-    #[must_use]
-    pub fn of(bytes: &[u8]) -> Option<Self> {
-        Self::of_magic(bytes).or_else(|| documents::of_json(bytes))
-    }
-
-    /// The format without a look at the keys of JSON.
-    pub(super) fn of_magic(bytes: &[u8]) -> Option<Self> {
-        signatures::of(bytes).or_else(|| documents::of_text(bytes))
-    }
-
     /// Its name, with an article.
     #[must_use]
     pub const fn name(self) -> &'static str {

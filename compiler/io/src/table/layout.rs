@@ -6,14 +6,11 @@
 use super::{
     TableError,
     cell::label,
-    rows::{Rows, Separator, is_number, is_remark, units_of},
+    rows::{COMMENTS, Line, Rows, Separator, is_number, is_remark, units_of},
 };
 
 /// Bytes in which the header is looked for, with all that comes before it; a binary file has no line end for long.
 pub(super) const HEAD: usize = 64 * 1024;
-
-/// Prefixes of comments; `#` begins one anywhere.
-pub(super) const COMMENTS: [char; 3] = ['#', '%', '/'];
 
 /// The layout of a table, detected from its head.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,13 +36,6 @@ pub struct Layout {
     /// Bytes and lines before the first row.
     pub(super) start: u64,
     pub(super) lines: u64,
-}
-
-/// A line of the head: its number from 1, its text and the bytes up to its end.
-pub(super) struct Line {
-    number: u64,
-    pub(super) text: String,
-    end: usize,
 }
 
 impl Layout {

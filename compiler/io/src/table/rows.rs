@@ -1,15 +1,21 @@
 //! Which separator parts the rows, which columns hold numbers, and which line names them.
 
-use super::{
-    cell::{has_decimal_comma, label, number, seconds},
-    layout::{COMMENTS, Line},
-};
+use super::cell::{has_decimal_comma, label, number, seconds};
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 /// Rows that tell the separator: the last ones of the head.
 const SAMPLE: usize = 32;
 /// Part of the numbers of a usual row that the first one has.
 const FIRST_ROW: f64 = 0.5;
+/// Prefixes of comments; `#` begins one anywhere.
+pub(super) const COMMENTS: [char; 3] = ['#', '%', '/'];
+
+/// A line of the head: its number from 1, its text and the bytes up to its end.
+pub(super) struct Line {
+    pub(super) number: u64,
+    pub(super) text: String,
+    pub(super) end: usize,
+}
 
 /// Separator of the columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -20,9 +20,8 @@ mod read;
 mod schema;
 
 pub(crate) use column_name::{Meaning, in_group, is_unit, meaning};
-pub(crate) use propose::TIME_UNITS;
 pub use propose::{Proposal, propose};
 pub use quantity::{GRAVITY_M_S2, Quantity, Unit};
-pub(crate) use read::RATES_HZ;
 pub use read::{FILE_NAME, MAX_BYTES, is_absent, no_description, read};
 pub use schema::{Axis, Channel, Column, Description, SensorFile, Tool};
+pub(crate) use schema::{RATES_HZ, TIME_UNITS};

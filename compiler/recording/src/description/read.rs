@@ -1,9 +1,9 @@
 //! Reads and checks a description.
 
 use super::{
-    propose::{Proposal, TIME_UNITS, propose},
+    propose::{Proposal, propose},
     quantity::{Quantity, Unit},
-    schema::{Axis, Channel, Column, Description, SensorFile, Tool},
+    schema::{Axis, Channel, Column, Description, RATES_HZ, SensorFile, TIME_UNITS, Tool},
 };
 use crate::{
     file,
@@ -20,8 +20,6 @@ pub const FILE_NAME: &str = "recording.toml";
 pub const MAX_BYTES: u64 = 1024 * 1024;
 /// Most files and most channels of a file.
 const MAX_ENTRIES: usize = 64;
-/// Range of rates, Hz.
-pub(crate) const RATES_HZ: (f64, f64) = (10.0, 200_000.0);
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -4,6 +4,12 @@ use super::quantity::{Quantity, Unit};
 use serde::Deserialize;
 use std::fmt;
 
+/// Range of rates, Hz.
+pub(crate) const RATES_HZ: (f64, f64) = (10.0, 200_000.0);
+/// Units of a clock, and the seconds in one.
+pub(crate) const TIME_UNITS: [(&str, f64); 4] =
+    [("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9)];
+
 /// A recording as its `recording.toml` describes it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Description {

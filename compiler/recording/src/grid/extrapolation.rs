@@ -5,7 +5,7 @@
 //! plane need not hold at its ends, so it goes on with that part of the slopes that best predicts the outermost quarter
 //! of the segments from the others. Silence is left to rest itself, and to no touch.
 
-use super::{local::Local, vertex::Modeller, whittle};
+use super::{ar_model::Modeller, local::Local, whittle};
 use crate::{
     segments::{Segment, Segments},
     signal::quantile::quantile,

@@ -272,8 +272,8 @@ mod tests {
     use super::*;
     use crate::{
         grid::{
+            ar_model::{Form, Modeller},
             simulated::segments,
-            vertex::{Form, Modeller},
         },
         segments::frequencies_hz,
         timeline::RATE_HZ,

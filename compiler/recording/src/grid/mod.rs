@@ -12,19 +12,20 @@
 //! | `vertex` | from power to a model |
 //! | `whittle` | the measure, and the residual of a vertex |
 
+mod ar_model;
 mod band;
 mod clusters;
 mod extrapolation;
 mod local;
 #[cfg(test)]
 mod simulated;
-mod vertex;
 mod whittle;
 
 use crate::{
     segments::{Segment, Segments},
     timeline::RATE_HZ,
 };
+use ar_model::{Form, Modeller};
 use asperity_texture::model::{GridVertex, ModelGrid, Numerator, triangulate};
 use clusters::centres;
 pub use extrapolation::Slopes;
@@ -32,7 +33,6 @@ use extrapolation::{Visited, ring};
 use local::Local;
 use rayon::prelude::*;
 use serde::Serialize;
-use vertex::{Form, Modeller};
 
 /// AR orders that are tried.
 const ORDERS: [usize; 6] = [4, 8, 12, 16, 20, 24];

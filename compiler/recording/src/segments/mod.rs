@@ -7,8 +7,8 @@
 //! motion of the hand, and above [`CEILING_HZ`] the resampling to the timeline removes power: both are
 //! filled from the neighbouring band.
 
-mod analyser;
 mod spans;
+mod spectra;
 mod stationary;
 
 use crate::{
@@ -18,8 +18,8 @@ use crate::{
     },
     timeline::{RATE_HZ, Timeline},
 };
-use analyser::{Analyser, TRANSFORM, mean_under_window};
 use spans::{CHANGING, STEADY, in_air, outside, spans, usable};
+use spectra::{Analyser, TRANSFORM, mean_under_window};
 use stationary::{LARGEST_STATISTIC, Law, PARTS, bartlett, whitener};
 
 /// Lags of the autocorrelation that a segment keeps.

@@ -1,6 +1,6 @@
 //! Spans of made timelines, spectra against their definitions.
 
-use super::{analyser::lags, spans::IN_AIR, stationary::WHITENER, *};
+use super::{spans::IN_AIR, spectra::lags, stationary::WHITENER, *};
 use crate::{
     signal::{noise::white, spectrum::hann},
     test_recordings::{near, timeline},

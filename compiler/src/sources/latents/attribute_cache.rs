@@ -1,12 +1,12 @@
 //! Attributes of latents, each part measured once: a search comes back to where it began, and moves one part while
 //! the others stay.
 
-use super::latent_editor::LatentEditor;
 use crate::{
     edit_memory::Latents,
     learned::{Latent, friction, texture},
     passes::reduce::{reduce_grid, reduce_taps},
     pipeline::{Pipeline, Request},
+    sources::prompt::PromptCompiler,
 };
 use asperity_io::diagnostic::Fault;
 use asperity_texture::{
@@ -22,7 +22,7 @@ use std::cell::RefCell;
 
 /// The attributes of the latents of one search.
 pub(super) struct AttributeCache<'a> {
-    editor: &'a LatentEditor<'a>,
+    prompt_compiler: &'a PromptCompiler,
     request: &'a Request,
     meter: RefCell<Meter>,
     grids: Memo<Latent, ModelGrid>,
@@ -41,9 +41,9 @@ enum State {
 }
 
 impl<'a> AttributeCache<'a> {
-    pub(super) fn new(editor: &'a LatentEditor<'a>, request: &'a Request) -> Self {
+    pub(super) fn new(prompt_compiler: &'a PromptCompiler, request: &'a Request) -> Self {
         Self {
-            editor,
+            prompt_compiler,
             request,
             meter: RefCell::default(),
             grids: Memo::default(),
@@ -83,7 +83,7 @@ impl<'a> AttributeCache<'a> {
         rough_db: f64,
         state: State,
     ) -> Result<Option<Vibration>, Fault> {
-        let model = self.editor.prompt_compiler.model();
+        let model = self.prompt_compiler.model();
         let mut grid = self.grids.once(slide, || {
             let decoded = model.decode_grid(slide)?;
             Ok(texture::grid(&model.description().grid, &decoded))
@@ -97,7 +97,7 @@ impl<'a> AttributeCache<'a> {
     }
 
     fn hard_hz(&self, tap: &Latent, hard: f64, state: State) -> Result<Option<f64>, Fault> {
-        let model = self.editor.prompt_compiler.model();
+        let model = self.prompt_compiler.model();
         let gains = defaults::gains();
         let mut bank = self.banks.once(tap, || {
             let decoded = model.decode_taps(tap)?;
@@ -112,7 +112,7 @@ impl<'a> AttributeCache<'a> {
 
     /// μ of a latent, before it is shifted.
     pub(super) fn mu(&self, z: &Latent) -> f64 {
-        let description = self.editor.prompt_compiler.model().description();
+        let description = self.prompt_compiler.model().description();
         let near = friction::neighbours(z, &description.anchors, description.friction);
         friction::mu(&near, &description.anchors)
     }

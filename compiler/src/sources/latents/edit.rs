@@ -90,7 +90,7 @@ impl LatentEditor<'_> {
         if asked.is_nothing() {
             return Err(not_understood(format_args!("the edit {text:?}")).usage());
         }
-        let cache = AttributeCache::new(self, request);
+        let cache = AttributeCache::new(self.prompt_compiler, request);
         let base = cache.kept(latents)?;
         let mut start = *latents;
         if let Some(towards) = &asked.towards {

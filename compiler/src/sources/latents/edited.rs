@@ -54,7 +54,11 @@ impl LatentEditor<'_> {
         sliders: &Sliders,
         request: &Request,
     ) -> Result<Latents, Fault> {
-        self.searched(latents, sliders, &AttributeCache::new(self, request))
+        self.searched(
+            latents,
+            sliders,
+            &AttributeCache::new(self.prompt_compiler, request),
+        )
     }
 
     /// The same, with a cache that may know these latents already.

@@ -116,7 +116,7 @@ impl<'a> LatentEditor<'a> {
     /// # Errors
     /// As [`texture`](Self::texture).
     pub fn attributes(&self, latents: &Latents) -> Result<Attributes, Fault> {
-        AttributeCache::new(self, &Request::default()).decoded(latents)
+        AttributeCache::new(self.prompt_compiler, &Request::default()).decoded(latents)
     }
 
     /// The attributes of the asset that these latents give: what is left out counts no more.
@@ -128,6 +128,6 @@ impl<'a> LatentEditor<'a> {
         latents: &Latents,
         request: &Request,
     ) -> Result<Attributes, Fault> {
-        AttributeCache::new(self, request).kept(latents)
+        AttributeCache::new(self.prompt_compiler, request).kept(latents)
     }
 }

@@ -1,6 +1,6 @@
 //! Options and results of compiling a prompt.
 
-use super::{reading::Reading, understood::Understood};
+use super::{readable::Understood, reading::Reading};
 use crate::{
     learned::{Certainty, Latent},
     passes::reduce::Fidelity,

@@ -5,8 +5,8 @@ use super::{
     encoding_cache::{EncodingCache, Read},
     error::unread,
     named_things::Things,
+    readable::{Understood, check, understood},
     reading::{Reader, Reading, shown},
-    understood::{Understood, check, understood},
 };
 use crate::{
     edit_memory::{History, Latents, Memory},

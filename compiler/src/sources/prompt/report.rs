@@ -1,6 +1,6 @@
 //! The report of a compiled prompt, as text and as JSON.
 
-use super::{CompiledPrompt, reading::Correction, understood::excerpt};
+use super::{CompiledPrompt, readable::excerpt, reading::Correction};
 use crate::{
     compiled::{Compiled, Findings},
     edit_memory::Axis,

@@ -5,7 +5,7 @@
 
 use super::{
     least_squares::{self, Fit},
-    material::{Material, Vibration},
+    material::{Generated, Material, Vibration},
     score::names,
     signature::{BANDS, FORCES_N, SPEEDS_MM_S, STROKES, Signature},
     trend::FEWEST,
@@ -38,17 +38,6 @@ const OCTAVES: std::ops::Range<usize> = 10..27;
 const FIRST_BAND: usize = 5;
 /// Frequencies a third octave.
 const PER_OCTAVE: usize = 6;
-
-/// The generator's predictions for a material.
-#[derive(Debug, Clone)]
-pub struct Generated {
-    /// With the constants of the reference corpus.
-    pub shipped: Vibration,
-    /// With constants fitted on the materials of other names; `None` where no fit was made.
-    pub left_out: Option<Vibration>,
-    /// With constants from physics and open data alone.
-    pub open: Vibration,
-}
 
 /// A measured material and its physical parameters.
 struct Observed<'a> {

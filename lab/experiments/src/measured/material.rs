@@ -1,6 +1,6 @@
 //! Measured materials beside the textures that their names are compiled into.
 
-use super::{calibration::Generated, signature::Signature};
+use super::signature::Signature;
 use asperity::{
     model::{
         TextureModel,
@@ -46,6 +46,17 @@ impl Vibration {
             mu: texture.friction.mu,
         }
     }
+}
+
+/// The generator's predictions for a material.
+#[derive(Debug, Clone)]
+pub struct Generated {
+    /// With the constants of the reference corpus.
+    pub shipped: Vibration,
+    /// With constants fitted on the materials of other names; `None` where no fit was made.
+    pub left_out: Option<Vibration>,
+    /// With constants from physics and open data alone.
+    pub open: Vibration,
 }
 
 /// Materials that can be judged, in order of their models, and those that cannot, each with its reason.

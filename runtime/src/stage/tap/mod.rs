@@ -1,15 +1,15 @@
 //! Taps: an impact starts a transient along the normal, a_tap(t).
 //!
-//! [`impact`] gives the speed of an impact, [`interpolation`] the transient that belongs to it.
+//! [`impact`] gives the speed of an impact, [`bank`] the transient that belongs to it.
 //! After an impact the detector waits until the stylus is `rearm_m` away.
 
+pub mod bank;
 pub mod impact;
-pub mod interpolation;
 mod resample;
 
 use self::{
+    bank::{Selection, TapBank},
     impact::{Detector, WINDOW, place},
-    interpolation::{Selection, TapBank},
 };
 use crate::{
     arithmetic::{Arithmetic, Float, Scalar as _, Zero as _},
@@ -129,7 +129,7 @@ impl<A: Arithmetic> Detector<A> {
 #[cfg(test)]
 mod tests {
     extern crate std;
-    use super::{interpolation::bank, *};
+    use super::{bank::bank, *};
     use crate::config::Config;
 
     #[test]

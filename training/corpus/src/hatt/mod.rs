@@ -17,7 +17,6 @@
 mod ar;
 mod bins;
 mod captions;
-mod error;
 mod interpolation;
 mod kmeans;
 mod pool;
@@ -26,8 +25,8 @@ mod tap;
 #[cfg(test)]
 mod tests;
 
+pub use crate::error::HattCorpusError;
 pub use captions::physical_by_name;
-pub use error::HattCorpusError;
 
 use crate::{
     BINS, Bin, Corpus, CorpusError, Instance, Material,

@@ -2,10 +2,9 @@
 
 use super::{
     ar::{self, Sounding},
-    error::HattCorpusError,
     interpolation::OwnGrid,
 };
-use crate::SAMPLE_RATE_HZ;
+use crate::{SAMPLE_RATE_HZ, error::HattCorpusError};
 use asperity::sources::hatt;
 use asperity_io::diagnostic::Fault;
 use rayon::prelude::*;

@@ -1,12 +1,10 @@
 //! Proposed entry of a file, from its headers and its first rows.
 
-use super::{TIME_UNITS, quoted};
 use crate::{
     description::{
         column_name::{Meaning, words},
         quantity::{GRAVITY_M_S2, Quantity, Unit},
-        read::RATES_HZ,
-        schema::Axis,
+        schema::{Axis, RATES_HZ, TIME_UNITS},
     },
     reader::{Header, clock_period, rows},
     signal::quantile::mean,
@@ -187,6 +185,11 @@ impl Entry {
 }
 
 const NO_QUANTITY: &str = "its name says no quantity";
+
+/// A text as TOML has it.
+pub(super) fn quoted(text: &str) -> String {
+    toml::Value::from(text).to_string()
+}
 
 /// The columns that measure something, and the names of the others with the reason.
 fn channels(file: &str, header: &Header) -> (Vec<Proposed>, Vec<(String, String)>) {

@@ -11,12 +11,9 @@ mod tests;
 use super::{quantity::Quantity, schema::Axis};
 use crate::reader;
 use asperity_io::diagnostic::Fault;
-use entry::{Entry, Proposed};
+use entry::{Entry, Proposed, quoted};
 use std::{fmt::Write as _, path::Path};
 
-/// Units of a clock, and the seconds in one.
-pub(crate) const TIME_UNITS: [(&str, f64); 4] =
-    [("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9)];
 /// Most files that are looked at.
 const MAX_FILES: usize = 32;
 /// Most bytes of a name.
@@ -126,11 +123,6 @@ fn name_of(folder: &Path) -> String {
         return "texture".into();
     }
     name
-}
-
-/// A text as TOML has it.
-fn quoted(text: &str) -> String {
-    toml::Value::from(text).to_string()
 }
 
 /// Leaves each quantity along each axis in one file: that whose acceleration shows gravity, or the first.

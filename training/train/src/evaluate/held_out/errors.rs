@@ -1,6 +1,5 @@
 //! Errors of a prediction, in every unit that matters.
 
-use super::fold::PREDICTORS;
 use crate::evaluate::signature::{Objective, Signature};
 use serde::{Deserialize, Serialize};
 
@@ -21,6 +20,37 @@ pub(super) const NAMES: [&str; METRICS] = [
     "μ",
     "μ, ln ratio",
 ];
+
+/// Who says what a held-out caption feels like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub(crate) enum Predictor {
+    /// The model, from the caption.
+    Text,
+    /// The mean texture of the training materials, whatever the caption.
+    Mean,
+    /// The training material whose mean caption is nearest to the caption.
+    Nearest,
+    /// The same with the phrases of the lexicon beside the captions, all that the model has: a phrase
+    /// that is nearer stands for the training material whose rating is nearest to its own.
+    NearestRated,
+    /// The model, from the texture itself: encoded and decoded. No prediction, but how
+    /// much of the error is the decoder's.
+    Own,
+}
+
+impl Predictor {
+    /// All of them, in the order of every array.
+    pub(crate) const ALL: [Self; PREDICTORS] = [
+        Self::Text,
+        Self::Mean,
+        Self::Nearest,
+        Self::NearestRated,
+        Self::Own,
+    ];
+}
+
+/// Number of predictors.
+pub(super) const PREDICTORS: usize = 5;
 
 /// A held-out caption.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

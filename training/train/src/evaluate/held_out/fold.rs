@@ -1,7 +1,7 @@
 //! Runs a fold: trains without some materials, then asks for them by unseen captions.
 
 use super::{
-    errors::{METRICS, Trial, errors},
+    errors::{METRICS, PREDICTORS, Trial, errors},
     lexicon::{nearest_rating, without},
 };
 use crate::{
@@ -21,37 +21,6 @@ use asperity::learned::{
 use asperity::signal::quantile::rank_correlation;
 use asperity_corpus::{BINS, Corpus, Instance, ORDER, TAP_SAMPLES, TAPS};
 use serde::{Deserialize, Serialize};
-
-/// Who says what a held-out caption feels like.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub(crate) enum Predictor {
-    /// The model, from the caption.
-    Text,
-    /// The mean texture of the training materials, whatever the caption.
-    Mean,
-    /// The training material whose mean caption is nearest to the caption.
-    Nearest,
-    /// The same with the phrases of the lexicon beside the captions, all that the model has: a phrase
-    /// that is nearer stands for the training material whose rating is nearest to its own.
-    NearestRated,
-    /// The model, from the texture itself: encoded and decoded. No prediction, but how
-    /// much of the error is the decoder's.
-    Own,
-}
-
-impl Predictor {
-    /// All of them, in the order of every array.
-    pub(crate) const ALL: [Self; PREDICTORS] = [
-        Self::Text,
-        Self::Mean,
-        Self::Nearest,
-        Self::NearestRated,
-        Self::Own,
-    ];
-}
-
-/// Number of predictors.
-pub(super) const PREDICTORS: usize = 5;
 
 /// Errors on one held-out material, means over its captions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -11,7 +11,7 @@ mod split;
 mod summary;
 
 pub(super) use completion::{Completed, Completion};
-pub(super) use fold::Predictor;
+pub(super) use errors::Predictor;
 pub(super) use lexicon::SAME;
 pub(super) use summary::Folds;
 

@@ -1,8 +1,8 @@
 //! From folds to figures.
 
 use super::{
-    errors::{METRICS, NAMES},
-    fold::{Fold, PREDICTORS, Predictor},
+    errors::{METRICS, NAMES, PREDICTORS, Predictor},
+    fold::Fold,
 };
 use crate::evaluate::{
     signature::Objective,

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 fn case(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../../tests/cases")
+        .join("../tests/cases")
         .join(name)
 }
 

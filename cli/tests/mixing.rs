@@ -133,7 +133,7 @@ fn a_blend_lies_between_and_is_its_ends_at_the_ends() {
 fn a_silent_place_has_no_distance_and_is_counted() {
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path();
-    let model = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/data/corduroy.json");
+    let model = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/data/corduroy.json");
     let model = fs::read_to_string(model).expect("the example of the documentation");
     let silent = model.replace("\"sigma_m_s2\": 0.15", "\"sigma_m_s2\": 0");
     assert!(silent != model);

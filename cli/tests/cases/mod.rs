@@ -169,7 +169,7 @@ fn findings(report: &Value, severity: &str) -> Vec<[String; 4]> {
 
 #[test]
 fn every_case_does_what_its_readme_says() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/cases");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/cases");
     let entries = fs::read_dir(&root).unwrap_or_else(|error| panic!("{}: {error}", root.display()));
     let found: BTreeSet<String> = entries
         .map(|entry| {
