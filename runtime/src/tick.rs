@@ -28,7 +28,7 @@ use crate::{
     sample::{Output, Sample},
     stage::{
         contact::DistanceField,
-        contact_law::{Pressing, SurfaceForce},
+        contact_law::{ContactLaw, Pressing, SurfaceForce},
         recursion::VibrationSample,
         vibration::Vibration,
         wall::{NormalForce, Wall},
@@ -84,6 +84,26 @@ impl<A: RenderArithmetic> Renderer<A> {
         output
     }
 
+    /// The forces of a contact law: a function of its own, so that a tick without one keeps its
+    /// registers.
+    #[cold]
+    #[inline(never)]
+    fn give_way(
+        &self,
+        law: &ContactLaw<A>,
+        wall: Wall<A>,
+        state: &mut State<A>,
+        tip: &Pressing<A>,
+    ) -> SurfaceForce<A> {
+        let lengths = self
+            .bristle
+            .lengths(&state.friction, tip.motion, tip.normal);
+        law.heal(&mut state.contact, lengths, |length| {
+            self.bristle.force(length)
+        });
+        law.step(&self.passivity, wall, &mut state.contact, tip)
+    }
+
     /// The force equation on what is touched. `mu` gives μ at a speed; `mix` adds what remains of
     /// another surface; `sound` steps the vibration, and its flag says whether it may be heard.
     #[inline(always)]
@@ -126,34 +146,38 @@ impl<A: RenderArithmetic> Renderer<A> {
 
         // F_n n̂: the wall, or a contact law in its place. Its elastic part is the load.
         let surface = if law.is_some() {
-            let before = (-state.tap.distance()).max(Quantity::ZERO);
             let tip = Pressing {
-                before,
+                before: (-state.tap.distance()).max(Quantity::ZERO),
                 depth,
                 outward: velocity.outward,
+                motion: gated.motion,
+                normal,
                 speed: slide,
+                mu,
                 elapsed_ticks: gated.elapsed_ticks,
             };
-            law.step(&self.passivity, wall, &mut state.contact, tip)
+            self.give_way(law, wall, state, &tip)
         } else {
             let NormalForce { spring, total } = wall.step(depth, velocity.outward);
             SurfaceForce {
                 load: spring,
                 total,
-                drag: Quantity::ZERO,
+                grip: spring,
+                limit: mu * spring,
             }
         };
-        let SurfaceForce { load, total, drag } = mix(surface);
+        let SurfaceForce {
+            load,
+            total,
+            grip,
+            limit,
+        } = mix(surface);
         flags = flags.union(Flags::OUTSIDE_GRID.when(texture.is_outside(speed, load)));
 
         // F_t: friction of the load, and drag.
-        let (grip, limit) = (load + drag, mu * load + drag);
         let friction = self
             .bristle
             .step(&mut state.friction, gated.motion, normal, grip, limit);
-        if law.is_some() & (depth > Quantity::ZERO) {
-            law.heal(&mut state.contact, friction.slip, friction.size, load);
-        }
         let friction_force = friction.direction * friction.size;
 
         // The tap's part of F_n.

@@ -30,11 +30,11 @@ use crate::{
     arithmetic::{Arithmetic, Cut, Fixed, Float, Scalar as _},
     math::{exp, min},
     quantity::{
-        Quantity,
+        Magnitudes, Quantity, Vector,
         unit::{
-            FineNewton, Fraction, Metre, MetrePerSecond, MillimetrePerMetre, MillimetrePerSecond,
-            Newton, NewtonPerMetre, NewtonSecondPerMetre, NewtonSecondPerSquareMetre,
-            RelaxingNewton, SecondPerMetre,
+            FineNewton, Fraction, FrictionCoefficient, Metre, MetrePerSecond, MillimetrePerMetre,
+            MillimetrePerSecond, Newton, NewtonPerMetre, NewtonSecondPerMetre,
+            NewtonSecondPerSquareMetre, RelaxingNewton, SecondPerMetre,
         },
     },
 };
@@ -67,7 +67,7 @@ pub(crate) struct ContactLaw<A: Arithmetic> {
     relaxing: Quantity<A, NewtonPerMetre>,
     /// 1 − a.
     relaxes: Quantity<A, Fraction>,
-    /// g; 1 without a branch, 0 without a law.
+    /// g.
     held: Quantity<A, Fraction>,
     /// e_y.
     yields: Quantity<A, Metre>,
@@ -85,6 +85,8 @@ pub(crate) struct ContactLaw<A: Arithmetic> {
     pull: Quantity<A, Newton>,
     /// k_a.
     sticking: Quantity<A, NewtonPerMetre>,
+    /// True if there is a law.
+    there: bool,
 }
 
 /// State of a [`ContactLaw`].
@@ -96,21 +98,31 @@ pub(crate) struct ContactState<A: Arithmetic> {
     imprint: Quantity<A, Metre>,
     /// u, N.
     pull: Quantity<A, Newton>,
+    /// F_el of the last tick, N.
+    load: Quantity<A, Newton>,
+    /// Deflection of the bristle in the last tick, before it slipped, m.
+    reached: Quantity<A, Metre>,
     /// Speed with which the surface yields, mm/s: grains crunch.
     pub(crate) crunch: Quantity<A, MillimetrePerSecond>,
 }
 
 /// Motion of the tip, as a law sees it.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Pressing<A: Arithmetic> {
+pub(crate) struct Pressing<A: Magnitudes> {
     /// δ a tick ago, m.
     pub(crate) before: Quantity<A, Metre>,
     /// δ, m.
     pub(crate) depth: Quantity<A, Metre>,
     /// ḋ, away from the surface, m/s.
     pub(crate) outward: Quantity<A, MetrePerSecond>,
+    /// Displacement since the last tick, m.
+    pub(crate) motion: Vector<A, Metre>,
+    /// n̂.
+    pub(crate) normal: Vector<A, Fraction>,
     /// Along the surface, m/s.
     pub(crate) speed: Quantity<A, MetrePerSecond>,
+    /// μ(v).
+    pub(crate) mu: Quantity<A, FrictionCoefficient>,
     /// Periods since the last tick, 1 to 3.
     pub(crate) elapsed_ticks: u32,
 }
@@ -122,8 +134,10 @@ pub(crate) struct SurfaceForce<A: Arithmetic> {
     pub(crate) load: Quantity<A, Newton>,
     /// Along the normal.
     pub(crate) total: Quantity<A, Newton>,
-    /// What drag adds to the limit of friction.
-    pub(crate) drag: Quantity<A, Newton>,
+    /// What the bristle holds by: the load, and drag.
+    pub(crate) grip: Quantity<A, Newton>,
+    /// The limit of friction.
+    pub(crate) limit: Quantity<A, Newton>,
 }
 
 impl<A: Arithmetic> SurfaceForce<A> {
@@ -131,7 +145,8 @@ impl<A: Arithmetic> SurfaceForce<A> {
     pub(crate) const NONE: Self = Self {
         load: Quantity::ZERO,
         total: Quantity::ZERO,
-        drag: Quantity::ZERO,
+        grip: Quantity::ZERO,
+        limit: Quantity::ZERO,
     };
 }
 
@@ -141,6 +156,8 @@ impl<A: Arithmetic> ContactState<A> {
         relaxing: Quantity::ZERO,
         imprint: Quantity::ZERO,
         pull: Quantity::ZERO,
+        load: Quantity::ZERO,
+        reached: Quantity::ZERO,
         crunch: Quantity::ZERO,
     };
 }
@@ -161,6 +178,7 @@ impl<A: Arithmetic> ContactLaw<A> {
         plough: Quantity::ZERO,
         pull: Quantity::ZERO,
         sticking: Quantity::ZERO,
+        there: false,
     };
 
     /// Takes the law of an asset, in place.
@@ -171,7 +189,7 @@ impl<A: Arithmetic> ContactLaw<A> {
             return;
         };
         self.shape.load(shape(law));
-        self.held = Quantity::whole(1);
+        self.there = true;
         self.damping = Quantity::of(law.damping_s_m).settled();
         let relaxation = &law.relaxation;
         if relaxation.stiffness_n_m > 0.0 {
@@ -196,8 +214,8 @@ impl<A: Arithmetic> ContactLaw<A> {
 
     /// Returns true if there is a law.
     #[inline(always)]
-    pub(crate) fn is_some(&self) -> bool {
-        self.held != Quantity::ZERO
+    pub(crate) const fn is_some(&self) -> bool {
+        self.there
     }
 
     /// The law that a device renders on a wall that it bears.
@@ -211,15 +229,19 @@ impl<A: Arithmetic> ContactLaw<A> {
         })
     }
 
-    /// An imprint heals with a slip along the surface, m, that friction, N, pays for.
+    /// The imprint heals with the last slip along the surface, which friction paid for. `lengths` are
+    /// the deflection that was left of what the last tick reached, and the one that this tick reaches;
+    /// `force` gives the friction of a deflection.
     #[inline]
     pub(crate) fn heal(
         &self,
         state: &mut ContactState<A>,
-        slip: Quantity<A, Metre>,
-        friction: Quantity<A, Newton>,
-        load: Quantity<A, Newton>,
+        [left, reaches]: [Quantity<A, Metre>; 2],
+        force: impl FnOnce(Quantity<A, Metre>) -> Quantity<A, Newton>,
     ) {
+        let slip = (state.reached - left).max(Quantity::ZERO);
+        let (load, friction) = (state.load, force(left));
+        state.reached = reaches;
         let paid = if load > Quantity::ZERO {
             let ratio = friction.to::<FineNewton>().over(load.to::<FineNewton>());
             ratio.min(self.heals)
@@ -230,16 +252,15 @@ impl<A: Arithmetic> ContactLaw<A> {
     }
 }
 
-impl<A: ShapeLookup + Pushing> ContactLaw<A> {
+impl<A: ShapeLookup + Pushing + Magnitudes> ContactLaw<A> {
     /// Advances by a tick on a wall that the device bears.
-    #[cold]
-    #[inline(never)]
+    #[inline]
     pub(crate) fn step(
         &self,
         passivity: &Passivity<A>,
         wall: Wall<A>,
         state: &mut ContactState<A>,
-        tip: Pressing<A>,
+        tip: &Pressing<A>,
     ) -> SurfaceForce<A> {
         let zero = Quantity::ZERO;
         let lowered = self.lowered(passivity, wall);
@@ -274,7 +295,7 @@ impl<A: ShapeLookup + Pushing> ContactLaw<A> {
             state.relaxing = relaxed.min(strongest).max(-strongest).settled();
         }
         if tip.depth <= zero {
-            return self.recover(passivity, state, &tip);
+            return self.recover(passivity, state, tip);
         }
 
         // Load, damping, pull and drag.
@@ -287,10 +308,12 @@ impl<A: ShapeLookup + Pushing> ContactLaw<A> {
         let most = (lowered.sticking * elastic).min(self.pull);
         state.pull = (state.pull - lowered.sticking * deeper).clamp_from_zero(most);
         let drag = (self.viscous * tip.speed + self.plough) * tip.depth;
+        state.load = load;
         SurfaceForce {
             load,
             total: total - state.pull,
-            drag: drag.max(Quantity::ZERO),
+            grip: load + drag,
+            limit: tip.mu * load + drag,
         }
     }
 
@@ -311,6 +334,8 @@ impl<A: ShapeLookup + Pushing> ContactLaw<A> {
             state.imprint = (state.imprint - gone).above(Quantity::of(SHALLOWEST_M));
         }
         state.pull = Quantity::ZERO;
+        state.load = Quantity::ZERO;
+        state.reached = Quantity::ZERO;
         SurfaceForce::NONE
     }
 
@@ -384,7 +409,8 @@ impl<A: Arithmetic> ForceCrossing<A> {
             self.remains = SurfaceForce {
                 load: self.last.load - force.load,
                 total: self.last.total - force.total,
-                drag: self.last.drag - force.drag,
+                grip: self.last.grip - force.grip,
+                limit: self.last.limit - force.limit,
             };
         }
         let left = Quantity::whole(1) - fraction;
@@ -400,13 +426,15 @@ impl<A: Arithmetic> ForceCrossing<A> {
         self.remains = SurfaceForce {
             load: fade(self.remains.load),
             total: fade(self.remains.total),
-            drag: fade(self.remains.drag),
+            grip: fade(self.remains.grip),
+            limit: fade(self.remains.limit),
         };
         self.lawful |= some;
         self.last = SurfaceForce {
             load: (force.load + self.remains.load).max(zero),
             total: force.total + self.remains.total,
-            drag: (force.drag + self.remains.drag).max(zero),
+            grip: (force.grip + self.remains.grip).max(zero),
+            limit: (force.limit + self.remains.limit).max(zero),
         };
         self.last
     }

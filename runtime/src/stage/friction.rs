@@ -93,8 +93,6 @@ pub struct Friction<A: Arithmetic = Float> {
     pub direction: Vector<A, Fraction>,
     /// Size, N.
     pub size: Quantity<A, Newton>,
-    /// How far the root slipped or crept, m.
-    pub slip: Quantity<A, Metre>,
 }
 
 impl<A: Magnitudes> Friction<A> {
@@ -106,6 +104,24 @@ impl<A: Magnitudes> Friction<A> {
 }
 
 impl<A: Magnitudes> Bristle<A> {
+    /// The deflection that a tick begins with, and the one that a `motion` takes it to before it
+    /// slips or creeps, m.
+    pub(crate) fn lengths(
+        &self,
+        state: &FrictionState<A>,
+        motion: Vector<A, Metre>,
+        normal: Vector<A, Fraction>,
+    ) -> [Quantity<A, Metre>; 2] {
+        let before = state.deflection.get();
+        let after = (before + motion).tangential(normal).settled();
+        [before, after].map(|deflection| Magnitude::above_zero(deflection).length())
+    }
+
+    /// The force of a deflection of a length, m, without the lead, N.
+    pub(crate) fn force(&self, length: Quantity<A, Metre>) -> Quantity<A, Newton> {
+        self.stiffness * (length - self.dead_zone).max(Quantity::ZERO)
+    }
+
     /// Advances by a tick: `motion` is the displacement since the last one, m, `normal` n̂, `grip`
     /// F_n, N, 0 out of contact, with what drag adds, and `limit` the largest friction, N: μF_n and
     /// the drag.
@@ -131,8 +147,7 @@ impl<A: Magnitudes> Bristle<A> {
         state.deflection = (deflection * kept).into();
 
         // The kept length, from the length alone: the inverse is known later.
-        let length = magnitude.length();
-        let stretch = (length * leaked).min(reach) - self.dead_zone;
+        let stretch = (magnitude.length() * leaked).min(reach) - self.dead_zone;
         let held = self.stiffness * stretch;
         let most = (Quantity::<A, Fraction>::of(0.5) * held).min(limit - held);
         // The deflection lies in the plane: a motion out of it adds nothing.
@@ -143,7 +158,6 @@ impl<A: Magnitudes> Bristle<A> {
         Friction {
             direction: deflection.direction(magnitude),
             size: held + lead,
-            slip: length - length * kept,
         }
     }
 }
