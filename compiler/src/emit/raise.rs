@@ -19,7 +19,7 @@ use asperity_formats as formats;
 use asperity_formats::{Asset, LsfCode};
 use asperity_texture::model::{
     Friction, FrictionAnchor, FrictionLaw, Gains, GridVertex, LawPoint, ModelGrid, Numerator,
-    Provenance, TapBank, TapTrace, TextureModel, VertexKind, Wall,
+    Provenance, TapBank, TapTrace, TextureModel, VertexKind,
     attributes::{self, Attributes, Meter},
 };
 
@@ -27,6 +27,7 @@ use asperity_texture::model::{
 #[must_use]
 pub fn raise(asset: &Asset<'_>) -> TextureModel {
     let coupling = asset.coupling();
+    let (wall, contact) = super::lower::raise_contact(asset);
     TextureModel {
         name: asset.name().to_owned(),
         grid: grid(asset.grid()),
@@ -51,10 +52,8 @@ pub fn raise(asset: &Asset<'_>) -> TextureModel {
                 .collect(),
             law: law(asset),
         },
-        wall: Wall {
-            stiffness_n_m: f64::from(coupling.stiffness_n_m),
-            damping_n_s_m: f64::from(coupling.damping_n_s_m),
-        },
+        wall,
+        contact,
         gains: Gains {
             vib_s2_m: f64::from(coupling.vib_s2_m),
             effective_mass_kg: f64::from(coupling.effective_mass_kg),

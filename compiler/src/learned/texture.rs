@@ -69,6 +69,7 @@ pub fn build(
             stiffness_n_m: friction::stiffness_n_m(&neighbours, &description.anchors),
             damping_n_s_m: defaults::DAMPING_N_S_M,
         },
+        contact: None,
         gains,
         provenance,
     };

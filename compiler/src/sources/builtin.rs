@@ -101,6 +101,7 @@ pub fn texture() -> TextureModel {
             law: None,
         },
         wall: defaults::wall(),
+        contact: None,
         gains,
         provenance: Provenance {
             generator: format!("asperity {} builtin", env!("CARGO_PKG_VERSION")),

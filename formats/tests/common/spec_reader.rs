@@ -23,10 +23,13 @@ pub struct Plain {
     pub law: Vec<(f64, f64)>,
     pub coupling: [f32; 5],
     /// The numbers of the contact law, in their order, and depth and shape of its spring, m.
-    pub contact: Option<([f32; 11], Vec<(f64, f64)>)>,
+    pub contact: Option<PlainContact>,
     pub provenance: Option<PlainProvenance>,
     pub preview_png: Option<Vec<u8>>,
 }
+
+/// Numbers and spring of a contact law.
+pub type PlainContact = ([f32; 11], Vec<(f64, f64)>);
 
 /// The provenance section.
 #[derive(Debug, Clone, PartialEq)]

@@ -16,6 +16,7 @@
 //! # Ok::<(), asperity::emit::lower::LowerError>(())
 //! ```
 
+mod contact;
 mod error;
 mod table;
 #[cfg(test)]
@@ -28,6 +29,8 @@ use asperity_formats::{
     GridParts, ModelParts, TapParts, limits,
 };
 use asperity_texture::model::{Numerator, TapTrace, TextureModel, VertexKind, mesh};
+use contact::LoweredLaw;
+pub(super) use contact::raise as raise_contact;
 use serde::Serialize;
 use table::ModelTable;
 
@@ -125,6 +128,7 @@ pub fn lower(texture: &TextureModel, preview_png: Option<&[u8]>) -> Result<Lower
         })
         .collect();
     let law = law(texture)?;
+    let contact = texture.contact.as_ref().map(LoweredLaw::of).transpose()?;
     let lsf_error = ErrorSummary::of(&table.errors_db);
     let provenance = &texture.provenance;
     let parts = AssetParts {
@@ -152,13 +156,13 @@ pub fn lower(texture: &TextureModel, preview_png: Option<&[u8]>) -> Result<Lower
             law: &law,
         },
         coupling: Coupling {
-            stiffness_n_m: texture.wall.stiffness_n_m as f32,
+            stiffness_n_m: contact::stiffness_n_m(&texture.wall, texture.contact.as_ref()) as f32,
             damping_n_s_m: texture.wall.damping_n_s_m as f32,
             vib_s2_m: texture.gains.vib_s2_m as f32,
             effective_mass_kg: texture.gains.effective_mass_kg as f32,
             f_max_n: texture.gains.f_max_n as f32,
         },
-        contact: None,
+        contact: contact.as_ref().map(LoweredLaw::parts),
         provenance: Some(formats::Provenance {
             generator: &provenance.generator,
             source: &provenance.source,

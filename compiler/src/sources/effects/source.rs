@@ -274,6 +274,7 @@ fn texture(
             law: None,
         },
         wall: defaults::wall(),
+        contact: None,
         gains,
         provenance: Provenance {
             generator,

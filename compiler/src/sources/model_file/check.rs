@@ -66,6 +66,7 @@ pub(super) fn model(document: Document) -> Result<TextureModel, Fault> {
         taps,
         friction,
         wall,
+        contact: None,
         gains,
         provenance: model::Provenance {
             generator: provenance.generator,

@@ -94,6 +94,7 @@ pub fn texture(
             stiffness_n_m: completed.stiffness_n_m,
             damping_n_s_m: defaults::DAMPING_N_S_M,
         },
+        contact: None,
         gains,
         provenance: Provenance {
             generator: format!("asperity {} import recording", env!("CARGO_PKG_VERSION")),

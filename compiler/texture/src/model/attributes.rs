@@ -30,6 +30,7 @@
 //! #         taps: TapBank::default(),
 //! #         friction: Friction { mu: 0.5, anchors: Vec::new(), law: None },
 //! #         wall: defaults::wall(),
+//! #         contact: None,
 //! #         gains: defaults::gains(),
 //! #         provenance: Provenance::default(),
 //! #     }

@@ -55,6 +55,14 @@
 //!   in codes of 1/16 (`friction.law.speed_mm_s`). Factors are 0 to 7.9999 in codes of 1/8192, and μ·factor is at most
 //!   10 (`friction.law.factor`). [`FrictionLaw::through`] reduces to 8 points, [`FrictionLaw::beside`] cuts factors.
 //!
+//! **Contact law** ([`ContactLaw`])
+//! - The spring has at most 6 points. Depths ascend strictly from 0, to 65.5 mm, in codes of 1 µm; forces do not fall,
+//!   and rise somewhere (`contact.spring.depth_m`, `contact.spring.shape_m`). With a spring the wall's stiffness is its
+//!   slope at 1 N, and an asset stores the steepest one.
+//! - Damping: 0 to 100 s/m. Relaxation: stiffness above 0, up to 10⁵ N/m, time constant 0.005 to 20 s. Imprint: yield 0
+//!   to 50 mm, share above 0, up to 1, healing 0 to 1, recovery 0 to 60 s. Drag: 0 to 10⁵ N·s/m² and 0 to 10⁴ N/m.
+//!   Adhesion: pull above 0, up to 100 N, stiffness as the wall's. All: `contact.…`.
+//!
 //! **Wall, gains, names, provenance**
 //! - Stiffness: above 0, up to 10⁵ N/m. Damping: 0 to 1000 N·s/m. `vib_s2_m`: 0 to 1000 s²/m. Effective mass: 0 to 100
 //!   kg. `f_max_n`: above 0, up to 10⁴ N. All: `surface.…`. [`defaults`] has valid ones; the pipeline's ceiling lowers
@@ -82,6 +90,7 @@
 //! [`lsf::magnitude_range`]: crate::signal::lsf::magnitude_range
 
 pub mod attributes;
+mod contact;
 pub mod defaults;
 mod friction_law;
 pub mod mesh;
@@ -91,6 +100,7 @@ pub mod tap_synthesis;
 mod texture;
 pub mod triangulate;
 
+pub use contact::{Adhesion, ContactLaw, Drag, Imprint, Relaxation, SpringPoint};
 pub use friction_law::{FrictionLaw, LawPoint};
 pub use texture::{
     Friction, FrictionAnchor, Gains, GridVertex, ModelGrid, Numerator, Provenance, TapBank,

@@ -1,6 +1,6 @@
 //! The types of a texture model, in f64 and SI units.
 
-use super::FrictionLaw;
+use super::{ContactLaw, FrictionLaw};
 use crate::signal::{lsf, spectrum::ArmaModel};
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -17,6 +17,8 @@ pub struct TextureModel {
     pub friction: Friction,
     /// The virtual wall.
     pub wall: Wall,
+    /// What takes the linear wall's place in a material that gives way.
+    pub contact: Option<ContactLaw>,
     /// From accelerations to forces on the device.
     pub gains: Gains,
     /// Where the texture comes from.

@@ -98,6 +98,7 @@ fn prototype(material: &Material, grid: &UnifiedGrid, speeds_m_s: &[f64]) -> Tex
             stiffness_n_m: material.stiffness_n_m,
             damping_n_s_m: defaults::DAMPING_N_S_M,
         },
+        contact: None,
         gains: defaults::gains(),
         provenance: Provenance::default(),
     }

@@ -67,6 +67,7 @@ fn texture(order: usize, side: usize, numerator: Numerator, sigma_m_s2: f64) -> 
             stiffness_n_m: 500.0,
             damping_n_s_m: 0.0,
         },
+        contact: None,
         gains: Gains {
             vib_s2_m: 0.015,
             effective_mass_kg: 0.05,
