@@ -5,7 +5,7 @@
 //! whatever its input.
 
 pub mod contact;
-pub(crate) mod contact_law;
+pub mod contact_law;
 pub mod excitation;
 pub mod friction;
 pub(crate) mod friction_law;
