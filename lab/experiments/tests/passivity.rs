@@ -1,10 +1,10 @@
 //! The runtime's wall gives off no more energy than the device absorbs, whatever the device's
 //! damping, delay, friction and counts. It is no softer than that requires.
 
-use asperity_experiments::stability::Material;
 use asperity_experiments::stability::wall::{
     Bench, DAMPINGS_N_S_M, REPORTED, ROUNDING_J, given_j, lowered_walls, ours_j,
 };
+use asperity_experiments::stability::{Material, contact, row::Verdict};
 use asperity_runtime::{Float, Passivity, Wall};
 
 fn silent() -> Material {
@@ -58,4 +58,13 @@ fn a_wall_is_as_reported_where_theory_allows_and_lowered_by_no_more_than_it_asks
     let (lowered, slack) = lowered_walls();
     assert!(lowered > 20, "{lowered}");
     assert_eq!(slack, 0, "walls that 5 % more stiffness leaves passive");
+}
+
+/// Seven contact laws on 27 devices, a million random strokes in all.
+#[test]
+#[ignore = "takes two minutes in a release build"]
+fn a_million_strokes_get_no_more_out_of_a_law_than_out_of_a_wall() {
+    for row in contact::rows_of(1, 5300).unwrap() {
+        assert_eq!(row.verdict, Verdict::Pass, "{row}");
+    }
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use asperity::{
     driver,
-    model::{GridVertex, TextureModel, VertexKind},
+    model::{ContactLaw, GridVertex, TextureModel, VertexKind},
     pipeline::Request,
     sources::{Tools, hatt::Hatt},
 };
@@ -112,6 +112,17 @@ impl Material {
     /// # Errors
     /// [`StabilityError::Lower`].
     pub fn silent(stiffness_n_m: f64, damping_n_s_m: f64) -> Result<Self, StabilityError> {
+        Self::giving_way((stiffness_n_m, damping_n_s_m), None)
+    }
+
+    /// [`Material::silent`] with a contact law.
+    ///
+    /// # Errors
+    /// [`StabilityError::Lower`].
+    pub fn giving_way(
+        (stiffness_n_m, damping_n_s_m): (f64, f64),
+        contact: Option<ContactLaw>,
+    ) -> Result<Self, StabilityError> {
         let mut model = asperity::sources::builtin::texture();
         model.taps.traces.clear();
         for vertex in &mut model.grid.vertices {
@@ -119,6 +130,7 @@ impl Material {
         }
         model.wall.stiffness_n_m = stiffness_n_m;
         model.wall.damping_n_s_m = damping_n_s_m;
+        model.contact = contact;
         Self::new(model)
     }
 }

@@ -11,6 +11,7 @@
 //! | [`coefficients`] | poles near the circle, coefficients in 16 bits |
 //! | [`friction`] | rest, ramps, reversal, closed paths |
 //! | [`wall`] | stiff walls, delay, lost samples, counts, grips |
+//! | [`contact`] | materials that give way, part by part |
 //! | [`tap`] | bouncing, grazing, sliding, taps in close succession |
 //! | [`change`] | a change of the texture in the middle of a stroke |
 //! | [`fault`] | NaN, infinity, positions that stick |
@@ -20,6 +21,7 @@
 
 pub mod change;
 pub mod coefficients;
+pub mod contact;
 mod error;
 pub mod fault;
 mod filters;

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::error::StabilityError;
 use super::row::{ScenarioResult, Verdict};
-use super::{change, coefficients, fault, friction, grid, material, mixing, tap, wall};
+use super::{change, coefficients, contact, fault, friction, grid, material, mixing, tap, wall};
 
 /// Which materials to try, and the seed.
 #[derive(Debug, Clone, Default)]
@@ -71,6 +71,7 @@ pub fn run(options: &StabilityOptions) -> Result<Table, StabilityError> {
     rows.extend(coefficients::rows(&materials, options.seed));
     rows.extend(friction::rows(options.seed)?);
     rows.extend(wall::rows(options.seed)?);
+    rows.extend(contact::rows(options.seed)?);
     rows.extend(tap::rows()?);
     rows.extend(change::rows(options.seed)?);
     rows.extend(fault::rows(options.seed)?);
