@@ -11,7 +11,7 @@ use super::{
 use crate::{
     edit_memory::{History, Latents, Memory},
     learned::{
-        Certainty, Decoded, Latent, LearnedModel, embedded,
+        Certainty, Decoded, Latent, LearnedModel, contact, embedded,
         files::wrong_width,
         friction::Neighbour,
         inference::Backend,
@@ -183,6 +183,8 @@ impl PromptCompiler {
         })?;
         let (mut texture, neighbours) = self.named(&decoded, &z, prompt, seed);
         adjust(&mut texture, &shift);
+        let law = self.contact_law(&projection, &z, seed)?;
+        contact::give(&mut texture, law, &z, self.model.description());
         let memory = Memory {
             model_crc32: self.model.crc32(),
             latents: Latents::whole(z).shifted(shift),
@@ -284,7 +286,7 @@ pub(crate) fn title(prompt: &str) -> String {
 /// The latent moved as far as instances of one material lie apart; not at all by seed 0.
 ///
 /// `spread` is the standard deviation of each component within a material.
-fn varied(mut z: Latent, spread: &[f32], seed: u64) -> Latent {
+pub(super) fn varied(mut z: Latent, spread: &[f32], seed: u64) -> Latent {
     if seed == 0 {
         return z;
     }
