@@ -291,6 +291,13 @@ fn mixtures_and_edits_keep_the_law() {
         editor.texture(&latents).unwrap().contact,
         Some(law("honey"))
     );
+    let seeded = Options {
+        seed: 3,
+        ..Options::default().without_preview()
+    };
+    let mud = PROMPTS.compile("mud", &seeded).unwrap().texture.contact;
+    assert_eq!(mud, Some(law("mud")));
+    assert_eq!(texture("boiled sweet").contact, None);
     let mut faster = Options::default().without_preview();
     faster.request.rate_hz = Some(1500.0);
     let faster = PROMPTS.compile("honey", &faster).unwrap().lowered.bytes;

@@ -17,6 +17,8 @@ use asperity_texture::model::{ContactLaw, FrictionAnchor, TextureModel};
 
 /// Least distance of a neighbour, 1 − cosine: what is nearer is the material itself.
 const NEAREST: f64 = 1e-9;
+/// Cosine from which a latent is close to a material: those of a boiled sweet and of slime are further apart.
+const CLOSE: f64 = 0.75;
 /// Part of μ by which a film changes it at least.
 const LEAST_SLIDE: f64 = 1e-3;
 
@@ -31,10 +33,16 @@ fn shares<'a>(z: &[f32], description: &'a ModelDescription) -> Vec<(f64, &'a Anc
         .collect()
 }
 
-/// The contact law at a latent; `None` where most of its neighbours, by weight, do not give way.
+/// The contact law at a latent; `None` where most of its neighbours, by weight, do not give way, and far from all that do.
 #[must_use]
 pub fn at(z: &[f32], description: &ModelDescription) -> Option<ContactLaw> {
     let shares = shares(z, description);
+    let close = |(_, anchor): &(f64, &Anchor)| {
+        table::material(&anchor.name).is_some() && friction::cosine(z, &anchor.z) >= CLOSE
+    };
+    if !shares.iter().any(close) {
+        return None;
+    }
     let share = |&(weight, anchor): &(f64, &Anchor)| Share {
         weight,
         law: table::material(&anchor.name).map(|material| &material.law),

@@ -4,7 +4,6 @@ use super::{
     Projection, PromptCompiler, PromptError,
     named_things::{Referent, Things},
     phrase::Phrase,
-    prompt_compiler::varied,
     reading::Reading,
 };
 use crate::learned::{Decoded, Latent, contact, description::ModelDescription, texture};
@@ -116,25 +115,23 @@ impl PromptCompiler {
         let Meaning { z, shift, decoded } = self.meaning(&projection)?;
         let mut texture = self.plain(&z, &decoded);
         adjust(&mut texture, &shift);
-        let law = self.contact_law(&projection, &z, 0)?;
+        let law = self.contact_law(&projection, &z)?;
         contact::give(&mut texture, law, &z, self.model().description());
         Ok(texture)
     }
 
-    /// The contact law of a prompt at this latent: that of the material without its changes, as its words move it.
+    /// The contact law of a prompt at this latent: that of the material without its changes, as its words move it. Every
+    /// piece of a material gives way alike, so no seed moves it.
     pub(super) fn contact_law(
         &self,
         projection: &Projection,
         z: &Latent,
-        seed: u64,
     ) -> Result<Option<ContactLaw>, PromptError> {
         let description = self.model().description();
         let reading = &projection.reading;
         let z = match &reading.phrase {
             // The vector of "sticky honey" lies towards tape, and what its words move is moved below.
-            Phrase::Changed { base, .. } | Phrase::Graded { base, .. } => {
-                varied(self.thing(base)?.z, &description.spread, seed)
-            }
+            Phrase::Changed { base, .. } | Phrase::Graded { base, .. } => self.thing(base)?.z,
             _ => *z,
         };
         Ok(contact_law(&z, description, reading))

@@ -175,16 +175,16 @@ impl PromptCompiler {
         let projection = pipeline.run(Pass::Text, || self.project(prompt))?;
         let (z, wanted) = pipeline.run(Pass::Text, || self.resolve_target(&projection))?;
         let meant = pipeline.run(Pass::Decode, || self.decode_target(z, wanted))?;
-        let shift = meant.shift;
-        let z = varied(meant.z, &self.model.description().spread, seed);
+        let (shift, place) = (meant.shift, meant.z);
+        let z = varied(place, &self.model.description().spread, seed);
         let decoded = pipeline.run(Pass::Decode, || match seed {
             0 => Ok(meant.decoded),
             _ => self.decoded(&z),
         })?;
         let (mut texture, neighbours) = self.named(&decoded, &z, prompt, seed);
         adjust(&mut texture, &shift);
-        let law = self.contact_law(&projection, &z, seed)?;
-        contact::give(&mut texture, law, &z, self.model.description());
+        let law = self.contact_law(&projection, &place)?;
+        contact::give(&mut texture, law, &place, self.model.description());
         let memory = Memory {
             model_crc32: self.model.crc32(),
             latents: Latents::whole(z).shifted(shift),
@@ -286,7 +286,7 @@ pub(crate) fn title(prompt: &str) -> String {
 /// The latent moved as far as instances of one material lie apart; not at all by seed 0.
 ///
 /// `spread` is the standard deviation of each component within a material.
-pub(super) fn varied(mut z: Latent, spread: &[f32], seed: u64) -> Latent {
+fn varied(mut z: Latent, spread: &[f32], seed: u64) -> Latent {
     if seed == 0 {
         return z;
     }
