@@ -2,6 +2,7 @@
 //! its line here; `.ci/check-tests` fails without it.
 
 mod auto_gain;
+mod contact_laws;
 mod edits;
 mod manifests;
 mod model_schema;

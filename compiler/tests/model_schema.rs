@@ -1,7 +1,7 @@
 //! The schema and the example of `docs/data/` are those of the format.
 
 use asperity::{
-    model::Numerator,
+    model::{Adhesion, ContactLaw, Drag, Imprint, Numerator, Relaxation, SpringPoint},
     sources::{
         builtin,
         model_file::{from_json, to_json},
@@ -51,6 +51,7 @@ fn the_schema_for_editors_has_the_keys_of_the_format() {
         vertex.gain = 0.1;
     }
     prompted.provenance.prompt = Some("grit".into());
+    prompted.contact = Some(giving_way());
     let documents: Vec<Value> = [builtin::texture(), prompted]
         .iter()
         .map(|texture| serde_json::from_slice(&to_json(texture)).unwrap())
@@ -58,4 +59,33 @@ fn the_schema_for_editors_has_the_keys_of_the_format() {
     compare(&schema, &documents.iter().collect::<Vec<_>>(), "");
     let example = include_str!("../../docs/data/corduroy.json");
     assert!(from_json(example.as_bytes()).is_ok());
+}
+
+/// A contact law with every part.
+fn giving_way() -> ContactLaw {
+    ContactLaw {
+        spring: vec![SpringPoint {
+            depth_mm: 4.0,
+            force_n: 1.0,
+        }],
+        damping_s_m: 0.5,
+        relaxation: Some(Relaxation {
+            stiffness_n_m: 50.0,
+            time_s: 0.3,
+        }),
+        imprint: Some(Imprint {
+            yield_mm: 1.0,
+            share: 0.5,
+            heal: 0.1,
+            recovery_s: 2.0,
+        }),
+        drag: Some(Drag {
+            viscous_n_s_m2: 100.0,
+            plough_n_m: 20.0,
+        }),
+        adhesion: Some(Adhesion {
+            pull_n: 0.1,
+            stiffness_n_m: 60.0,
+        }),
+    }
 }

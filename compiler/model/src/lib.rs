@@ -28,6 +28,10 @@ pub static VOCABULARY: &str = include_str!("../vocab.tsv");
 /// 49,408 tokens are made by.
 pub static CLIP_MERGES: &str = include_str!("../clip_merges.txt");
 
+/// The contact laws of materials that give way, by the names of `model.json`, as TOML. They are no part of
+/// [`folder`]: what does not give way does not depend on them.
+pub static CONTACT_LAWS: &str = include_str!("../contact_laws.toml");
+
 /// CRC-32 of the files of [`folder`], one after another. A test compares.
 pub const MODEL_CRC32: u32 = 0x7b36_8b4c;
 

@@ -6,6 +6,7 @@
 mod certainty;
 mod check;
 pub mod complete;
+pub mod contact;
 pub mod description;
 pub mod edges;
 pub mod embedded;

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     edit_memory::AXES,
-    learned::Certainty,
+    learned::{Certainty, contact},
     pipeline::{Clock, Pass, Pipeline, Timings},
     sources::{
         Tools,
@@ -365,6 +365,7 @@ fn keys(
         };
         places[index] = Some(edited(parts, &entry.options).key());
     }
+    let laws = Key::of(contact::TABLES.concat().as_bytes());
     let all = entries.iter().zip(&places);
     Ok(all
         .map(|(entry, place)| {
@@ -374,7 +375,8 @@ fn keys(
             let parts = if entry.origin.is_learned() {
                 let crcs = [pinned.model_crc32, pinned.text_encoder_crc32];
                 let crcs = crcs.map(u32::to_le_bytes).concat();
-                parts.text(&pinned.backend).text(&pinned.reader).part(&crcs)
+                let parts = parts.text(&pinned.backend).text(&pinned.reader);
+                parts.part(&crcs).part(laws.bytes())
             } else {
                 parts
             };

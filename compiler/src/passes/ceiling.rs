@@ -68,14 +68,19 @@ pub fn limit(texture: &mut TextureModel) {
 }
 
 /// The factor on the effective mass: m_eff·a(t) + k·v·t stays within the peak while the wall's
-/// k·v·t, of a hand that does not slow down, is within the continuous force.
+/// k·v·t, or the force of its spring, of a hand that does not slow down, is within the continuous force.
 fn taps(texture: &TextureModel, continuous_n: f64) -> f64 {
     let rate_hz = texture.taps.sample_rate_hz;
     let (peak_n, mass_kg) = (texture.gains.f_max_n, texture.gains.effective_mass_kg);
     let mut taps = 1.0_f64;
     for trace in &texture.taps.traces {
         for (n, accel_m_s2) in trace.accel_m_s2.iter().enumerate() {
-            let wall_n = texture.wall.stiffness_n_m * trace.speed_m_s * n as f64 / rate_hz;
+            let depth_m = trace.speed_m_s * n as f64 / rate_hz;
+            let stiffness_n_m = texture.wall.stiffness_n_m;
+            let wall_n = match &texture.contact {
+                Some(law) => law.spring_n(1000.0 * depth_m, stiffness_n_m),
+                None => stiffness_n_m * trace.speed_m_s * n as f64 / rate_hz,
+            };
             if wall_n <= continuous_n {
                 taps = taps.min(factor(peak_n - wall_n, mass_kg * accel_m_s2));
             }

@@ -17,6 +17,6 @@ use asperity::{learned::inference::Backend, sources::prompt::PromptCompiler};
 use std::sync::LazyLock;
 
 /// Loaded once: the tests of this file only ask it.
-static PROMPTS: LazyLock<PromptCompiler> = LazyLock::new(|| {
+pub(crate) static PROMPTS: LazyLock<PromptCompiler> = LazyLock::new(|| {
     PromptCompiler::embedded(&Backend::Portable).expect("the shipped model loads")
 });

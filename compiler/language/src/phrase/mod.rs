@@ -23,7 +23,7 @@ mod table;
 use crate::words::grade::Grade;
 
 pub use parse::{is_cover, parse};
-pub use quality::{is_adjective, is_degree, is_lasting, is_quality};
+pub use quality::{degree, is_adjective, is_degree, is_lasting, is_quality};
 pub use relative::{Relative, Towards, relative};
 pub(crate) use table::is_noun;
 pub use table::quality_words;

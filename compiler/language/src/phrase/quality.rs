@@ -43,6 +43,13 @@ pub fn is_adjective(word: &str) -> bool {
     adjective(word, Use::Edit).is_some() || compared(word, Use::Edit).is_some()
 }
 
+/// Strength of a word of degree, 1 for none: "very" above, "slightly" below it.
+#[must_use]
+pub fn degree(word: &str) -> Option<f64> {
+    let (least, most) = table::degree(word)?;
+    Some((least + most) / (PLAIN.0 + PLAIN.1))
+}
+
 /// Returns true for a word of degree: "very", "slightly".
 #[must_use]
 pub fn is_degree(word: &str) -> bool {

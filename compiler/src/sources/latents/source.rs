@@ -3,12 +3,15 @@
 use super::{Edit, EditResult, LatentEditor, Part};
 use crate::{
     edit_memory::{History, Ingredient, Latents, Memory, Origin, Step, damaged},
-    learned::{Decoded, LearnedModel, friction, texture},
+    learned::{Decoded, Latent, LearnedModel, contact, friction, texture},
     pipeline::{Pass, Pipeline, Request, Ringing},
-    sources::{Source, SourceOutput, Tools},
+    sources::{
+        Source, SourceOutput, Tools,
+        prompt::{PromptCompiler, contact_law},
+    },
 };
 use asperity_io::diagnostic::{Failure, Fault};
-use asperity_texture::model::{FrictionLaw, Provenance, TextureModel, shift::adjust};
+use asperity_texture::model::{ContactLaw, FrictionLaw, Provenance, TextureModel, shift::adjust};
 
 /// A texture that is decoded from latents.
 #[derive(Debug, Clone)]
@@ -23,8 +26,21 @@ pub struct FromLatents {
     pub history: History,
     /// Speed dependence of the friction, which latents do not encode: its factors multiply their μ.
     pub law: Option<FrictionLaw>,
+    /// Contact law that it came with: its words and its parts moved it from that of the latents.
+    pub contact: Option<OwnContact>,
     /// Warnings for the user.
     pub warnings: Vec<String>,
+}
+
+/// A contact law that a texture came with, or that it came without one. It holds while the texture taps as it did.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OwnContact {
+    /// The law.
+    pub law: Option<ContactLaw>,
+    /// Stiffness of the wall, N/m.
+    pub stiffness_n_m: f64,
+    /// Latent of the taps.
+    pub tap: Latent,
 }
 
 impl FromLatents {
@@ -37,6 +53,7 @@ impl FromLatents {
             provenance,
             history,
             law: None,
+            contact: None,
             warnings: Vec::new(),
         }
     }
@@ -45,6 +62,11 @@ impl FromLatents {
     #[must_use]
     pub fn remembered(texture: TextureModel, memory: Memory) -> Self {
         Self {
+            contact: Some(OwnContact {
+                law: texture.contact,
+                stiffness_n_m: texture.wall.stiffness_n_m,
+                tap: memory.latents.tap,
+            }),
             law: texture.friction.law,
             ..Self::new(
                 memory.latents,
@@ -67,7 +89,14 @@ impl FromLatents {
             name: texture.name.clone(),
             part: part.name().to_owned(),
         });
+        // A law of its own is kept; without one, it has that of the latent.
+        let own = texture.contact.map(|law| OwnContact {
+            law: Some(law),
+            stiffness_n_m: texture.wall.stiffness_n_m,
+            tap: latents.tap,
+        });
         Self {
+            contact: own,
             law: texture.friction.law,
             ..Self::new(latents, texture.name, provenance, history)
         }
@@ -83,6 +112,7 @@ impl FromLatents {
             t,
         });
         Self {
+            contact: OwnContact::between(a.own_contact(), b.own_contact(), t, &latents),
             law: FrictionLaw::between(a.law.as_ref(), b.law.as_ref(), t),
             ..Self::new(latents, String::new(), provenance, history)
         }
@@ -98,9 +128,31 @@ impl FromLatents {
             friction: friction.ingredient(),
         });
         Self {
+            contact: tap.contact.clone(),
             law: friction.law.clone(),
             ..Self::new(latents, String::new(), provenance, history)
         }
+    }
+
+    /// The contact law that it came with, unless an edit changed its taps.
+    fn own_contact(&self) -> Option<&OwnContact> {
+        let own = self.contact.as_ref();
+        own.filter(|own| own.tap == self.latents.tap)
+    }
+
+    /// Its contact law: that which it came with, or else that of its latents as the words of its prompt move it.
+    fn contact_law(
+        &self,
+        model: &LearnedModel,
+        prompt_compiler: Option<&PromptCompiler>,
+    ) -> Option<ContactLaw> {
+        if let Some(own) = self.own_contact() {
+            return own.law.clone();
+        }
+        let prompt = prompt_compiler.zip(self.provenance.prompt.as_deref());
+        let reading = prompt.map(|(compiler, prompt)| compiler.read(prompt));
+        let reading = reading.unwrap_or_default();
+        contact_law(&self.latents.tap, model.description(), &reading)
     }
 
     fn ingredient(&self) -> Ingredient {
@@ -156,8 +208,15 @@ impl Source for FromLatents {
     ) -> Result<SourceOutput, Failure> {
         let model = tools.model()?;
         let mut texture = pipeline.run(Pass::Decode, || {
-            decode(model, &self.latents, &self.name, self.provenance.clone())
+            plain(model, &self.latents, &self.name, self.provenance.clone())
         })?;
+        let contact = self.contact_law(model, tools.prompt_compiler);
+        contact::give(
+            &mut texture,
+            contact,
+            &self.latents.friction,
+            model.description(),
+        );
         let mu = texture.friction.mu;
         texture.friction.law = self.law.clone().map(|law| law.beside(mu));
         Ok(SourceOutput {
@@ -174,11 +233,45 @@ impl Source for FromLatents {
     }
 }
 
+impl OwnContact {
+    fn share(&self, weight: f64) -> contact::Share<'_> {
+        contact::Share {
+            weight,
+            law: self.law.as_ref(),
+            stiffness_n_m: self.stiffness_n_m,
+        }
+    }
+
+    /// The law between those of two textures, at these latents; `None` where one is not known.
+    fn between(a: Option<&Self>, b: Option<&Self>, t: f64, latents: &Latents) -> Option<Self> {
+        let (a, b) = (a?, b?);
+        Some(Self {
+            law: contact::mixed(&[a.share(1.0 - t), b.share(t)]),
+            stiffness_n_m: (1.0 - t) * a.stiffness_n_m + t * b.stiffness_n_m,
+            tap: latents.tap,
+        })
+    }
+}
+
 /// The texture of these latents before it is reduced.
 ///
 /// # Errors
 /// [`Fault`] when a network fails.
 pub fn decode(
+    model: &LearnedModel,
+    latents: &Latents,
+    name: &str,
+    provenance: Provenance,
+) -> Result<TextureModel, Fault> {
+    let mut texture = plain(model, latents, name, provenance)?;
+    let description = model.description();
+    let law = contact::at(&latents.tap, description);
+    contact::give(&mut texture, law, &latents.friction, description);
+    Ok(texture)
+}
+
+/// The same without a contact law.
+fn plain(
     model: &LearnedModel,
     latents: &Latents,
     name: &str,

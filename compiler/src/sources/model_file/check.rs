@@ -1,12 +1,15 @@
 //! A document as a model: every value in its range, every list of its length, in its order.
 
-use super::schema::{Document, Grid};
+use super::{
+    contact,
+    schema::{Document, Grid},
+};
 use crate::name;
 use asperity_formats::limits;
 use asperity_io::diagnostic::Fault;
 use asperity_texture::model::{
-    self, Friction, FrictionLaw, Gains, GridVertex, ModelGrid, Numerator, TapBank, TextureModel,
-    Wall, defaults, mesh, tap_synthesis, triangulate,
+    self, ContactLaw, Friction, FrictionLaw, Gains, GridVertex, ModelGrid, Numerator, TapBank,
+    TextureModel, Wall, defaults, mesh, tap_synthesis, triangulate,
 };
 use std::f64::consts::PI;
 
@@ -60,7 +63,10 @@ pub(super) fn model(document: Document) -> Result<TextureModel, Fault> {
             defaults::gains()
         }
     };
-    Ok(TextureModel {
+    if let Some(law) = &document.contact {
+        contact::check(law)?;
+    }
+    let mut texture = TextureModel {
         name: document.name,
         grid,
         taps,
@@ -79,7 +85,15 @@ pub(super) fn model(document: Document) -> Result<TextureModel, Fault> {
             // The pipeline states the rest.
             ..model::Provenance::default()
         },
-    })
+    };
+    // A spring states the stiffness of the wall.
+    let slope = document
+        .contact
+        .as_ref()
+        .and_then(ContactLaw::stiffness_n_m);
+    texture.wall.stiffness_n_m = slope.unwrap_or(texture.wall.stiffness_n_m);
+    texture.contact = document.contact;
+    Ok(texture)
 }
 
 fn grid(stated: Grid) -> Result<ModelGrid, Fault> {
@@ -303,7 +317,7 @@ fn check_name(field: &str, text: &str) -> Result<(), Fault> {
 }
 
 /// A number within a range of the format; one that an asset would round to infinity is outside.
-fn in_range(field: &str, value: f64, (low, high): (f32, f32)) -> Result<(), Fault> {
+pub(super) fn in_range(field: &str, value: f64, (low, high): (f32, f32)) -> Result<(), Fault> {
     // A NaN is in no range.
     if (f64::from(low)..=f64::from(high)).contains(&value) {
         return Ok(());
@@ -317,7 +331,7 @@ fn in_range(field: &str, value: f64, (low, high): (f32, f32)) -> Result<(), Faul
     Err(Fault::new(what, "correct the value; its unit is in the key").field(field))
 }
 
-fn length(field: &str, found: usize, low: usize, high: usize) -> Result<(), Fault> {
+pub(super) fn length(field: &str, found: usize, low: usize, high: usize) -> Result<(), Fault> {
     if (low..=high).contains(&found) {
         return Ok(());
     }

@@ -35,6 +35,7 @@ fn document(texture: &TextureModel) -> Document {
         taps: Some(texture.taps.clone()),
         friction: texture.friction.clone(),
         wall: Some(texture.wall),
+        contact: texture.contact.clone(),
         gains: Some(texture.gains),
         provenance: Provenance {
             generator: provenance.generator.clone(),

@@ -15,6 +15,7 @@
 //! ```
 
 mod check;
+mod contact;
 mod emit;
 mod layout;
 mod read;

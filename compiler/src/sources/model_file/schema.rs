@@ -1,9 +1,9 @@
 //! The format: what a file holds, key by key.
 //!
-//! Vertices, taps, friction, wall and gains are those of the model. Units are in the keys: m, s, N, rad, Hz, m/s², and
+//! Vertices, taps, friction, wall, contact law and gains are those of the model. Units are in the keys: m, s, N, rad, Hz, m/s², and
 //! mm/s for the speeds of the grid.
 
-use asperity_texture::model::{Friction, Gains, GridVertex, Numerator, TapBank, Wall};
+use asperity_texture::model::{ContactLaw, Friction, Gains, GridVertex, Numerator, TapBank, Wall};
 use serde::{Deserialize, Serialize};
 
 /// Value of `format`.
@@ -24,6 +24,9 @@ pub(super) struct Document {
     pub(super) friction: Friction,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) wall: Option<Wall>,
+    /// A spring takes the place of the wall's stiffness.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) contact: Option<ContactLaw>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) gains: Option<Gains>,
     #[serde(default)]

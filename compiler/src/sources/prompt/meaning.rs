@@ -4,10 +4,11 @@ use super::{
     Projection, PromptCompiler, PromptError,
     named_things::{Referent, Things},
     phrase::Phrase,
+    reading::Reading,
 };
-use crate::learned::{Decoded, Latent, texture};
+use crate::learned::{Decoded, Latent, contact, description::ModelDescription, texture};
 use asperity_texture::model::{
-    Provenance, TextureModel,
+    ContactLaw, Provenance, TextureModel,
     attributes::{self, Attributes},
     shift::{self, Scales, Shift, adjust},
 };
@@ -110,10 +111,30 @@ impl PromptCompiler {
     /// # Errors
     /// [`PromptError`] for an empty prompt or a failing network.
     pub fn texture(&self, prompt: &str) -> Result<TextureModel, PromptError> {
-        let Meaning { z, shift, decoded } = self.meaning(&self.project(prompt)?)?;
+        let projection = self.project(prompt)?;
+        let Meaning { z, shift, decoded } = self.meaning(&projection)?;
         let mut texture = self.plain(&z, &decoded);
         adjust(&mut texture, &shift);
+        let law = self.contact_law(&projection, &z)?;
+        contact::give(&mut texture, law, &z, self.model().description());
         Ok(texture)
+    }
+
+    /// The contact law of a prompt at this latent: that of the material without its changes, as its words move it. Every
+    /// piece of a material gives way alike, so no seed moves it.
+    pub(super) fn contact_law(
+        &self,
+        projection: &Projection,
+        z: &Latent,
+    ) -> Result<Option<ContactLaw>, PromptError> {
+        let description = self.model().description();
+        let reading = &projection.reading;
+        let z = match &reading.phrase {
+            // The vector of "sticky honey" lies towards tape, and what its words move is moved below.
+            Phrase::Changed { base, .. } | Phrase::Graded { base, .. } => self.thing(base)?.z,
+            _ => *z,
+        };
+        Ok(contact_law(&z, description, reading))
     }
 
     /// The material that a text names; the text may be a phrase itself. Prompts of a library name few of them.
@@ -170,6 +191,18 @@ impl PromptCompiler {
         let (name, provenance) = (String::new(), Provenance::default());
         texture::build(self.model().description(), decoded, z, name, provenance).0
     }
+}
+
+/// The contact law at a latent, as the words of a prompt move it.
+pub(crate) fn contact_law(
+    z: &Latent,
+    description: &ModelDescription,
+    reading: &Reading,
+) -> Option<ContactLaw> {
+    let law = contact::at(z, description)?;
+    let nearest = contact::nearest(z, description).unwrap_or_default();
+    let (words, names) = (&reading.words, &reading.names);
+    Some(contact::worded(law, words, names, nearest))
 }
 
 fn kept(

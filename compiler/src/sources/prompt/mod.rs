@@ -47,6 +47,7 @@ pub use changed::{STEP, changed, from_base};
 pub use compiled_prompt::{CompiledPrompt, Nearest, Options};
 pub use error::PromptError;
 pub use meaning::Meaning;
+pub(crate) use meaning::contact_law;
 pub(crate) use prompt_compiler::title;
 pub use prompt_compiler::{Projection, PromptCompiler};
 pub use readable::{Understood, check};

@@ -11,7 +11,7 @@ use super::{
 use crate::{
     edit_memory::{History, Latents, Memory},
     learned::{
-        Certainty, Decoded, Latent, LearnedModel, embedded,
+        Certainty, Decoded, Latent, LearnedModel, contact, embedded,
         files::wrong_width,
         friction::Neighbour,
         inference::Backend,
@@ -175,14 +175,16 @@ impl PromptCompiler {
         let projection = pipeline.run(Pass::Text, || self.project(prompt))?;
         let (z, wanted) = pipeline.run(Pass::Text, || self.resolve_target(&projection))?;
         let meant = pipeline.run(Pass::Decode, || self.decode_target(z, wanted))?;
-        let shift = meant.shift;
-        let z = varied(meant.z, &self.model.description().spread, seed);
+        let (shift, place) = (meant.shift, meant.z);
+        let z = varied(place, &self.model.description().spread, seed);
         let decoded = pipeline.run(Pass::Decode, || match seed {
             0 => Ok(meant.decoded),
             _ => self.decoded(&z),
         })?;
         let (mut texture, neighbours) = self.named(&decoded, &z, prompt, seed);
         adjust(&mut texture, &shift);
+        let law = self.contact_law(&projection, &place)?;
+        contact::give(&mut texture, law, &place, self.model.description());
         let memory = Memory {
             model_crc32: self.model.crc32(),
             latents: Latents::whole(z).shifted(shift),

@@ -3,10 +3,10 @@
 use crate::learned::{
     LearnedModel, Present,
     complete::{ar_channels, taps_of_grid},
-    friction,
+    contact, friction,
 };
 use asperity_io::diagnostic::Fault;
-use asperity_texture::model::{Gains, ModelGrid, TapBank};
+use asperity_texture::model::{ContactLaw, Gains, ModelGrid, TapBank};
 use serde::Serialize;
 
 /// Materials that are proposed.
@@ -34,6 +34,8 @@ pub struct Completed {
     pub mu: f64,
     /// Stiffness of their walls, N/m.
     pub stiffness_n_m: f64,
+    /// Their contact law, if they give way.
+    pub contact: Option<ContactLaw>,
 }
 
 /// Encodes a grid and decodes what goes with it.
@@ -61,5 +63,6 @@ pub fn complete(model: &LearnedModel, grid: &ModelGrid, gains: &Gains) -> Result
         taps: taps_of_grid(model, grid, gains)?,
         mu: friction::mu(&neighbours, &description.anchors),
         stiffness_n_m: friction::stiffness_n_m(&neighbours, &description.anchors),
+        contact: contact::at(&z, description),
     })
 }

@@ -1,6 +1,7 @@
 //! An analysis as a texture.
 
 use super::{analyse::Analysis, complete::Completed};
+use crate::learned::contact;
 use asperity_recording::impact::TAP_RATE_HZ;
 use asperity_texture::model::{
     Friction, FrictionAnchor, FrictionLaw, LawPoint, Provenance, TapBank, TapTrace, TextureModel,
@@ -77,7 +78,7 @@ pub fn texture(
         parts.friction,
         if law.is_some() { ", over speed" } else { "" },
     );
-    let texture = TextureModel {
+    let mut texture = TextureModel {
         name: description.name.clone(),
         grid: analysis.fit.grid.clone(),
         taps,
@@ -114,6 +115,8 @@ pub fn texture(
             notes,
         },
     };
+    // Its friction is its own, or that of the nearest.
+    contact::set(&mut texture, completed.contact.clone());
     (texture, parts)
 }
 

@@ -3,8 +3,9 @@
 use super::scene::SurfaceDocument;
 use crate::emit::raise::raise;
 use asperity_formats::Asset;
+use asperity_runtime::{Config, Renderer};
 use asperity_texture::model::{
-    FrictionAnchor, FrictionLaw, Gains, Numerator, Provenance, VertexKind, Wall,
+    ContactLaw, FrictionAnchor, FrictionLaw, Gains, Numerator, Provenance, VertexKind, Wall,
     attributes::{Attributes, Meter},
 };
 use serde::Serialize;
@@ -27,6 +28,9 @@ pub struct Document {
     pub friction: Friction,
     /// The wall.
     pub wall: Wall,
+    /// What takes the linear wall's place in a material that gives way. Absent if it does not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact: Option<Contact>,
     /// From accelerations to forces.
     pub gains: Gains,
     /// Objective attributes.
@@ -135,6 +139,84 @@ impl Display for Friction {
     }
 }
 
+/// A contact law.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Contact {
+    /// The law of the asset.
+    #[serde(flatten)]
+    pub law: ContactLaw,
+    /// Its parts on the 3D Systems Touch at 1 kHz.
+    pub lowered: LoweredContact,
+}
+
+/// Parts of a contact law as the runtime renders them on a device: the same where it can bear them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LoweredContact {
+    /// Steepest slope of the spring, N/m.
+    pub stiffness_n_m: f64,
+    /// Damping of the wall, N·s/m.
+    pub damping_n_s_m: f64,
+    /// Damping over the load, s/m.
+    pub damping_s_m: f64,
+    /// Stiffness of the relaxation, N/m.
+    pub relaxation_n_m: f64,
+    /// Stiffness of the adhesion, N/m.
+    pub adhesion_n_m: f64,
+}
+
+impl LoweredContact {
+    fn of(asset: &Asset<'_>) -> Option<Self> {
+        let renderer = Renderer::new(&Config::default()).ok()?;
+        let lowered = renderer.contact_law(asset.coupling(), asset.contact()?);
+        Some(Self {
+            stiffness_n_m: lowered.wall.stiffness.value().into(),
+            damping_n_s_m: lowered.wall.damping.value().into(),
+            damping_s_m: lowered.damping.value().into(),
+            relaxation_n_m: lowered.relaxing.value().into(),
+            adhesion_n_m: lowered.sticking.value().into(),
+        })
+    }
+}
+
+/// Formats the parts on one line, and on another those that the Touch bears.
+impl Display for Contact {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let law = &self.law;
+        let mut parts = Vec::new();
+        if !law.spring.is_empty() {
+            let points = law.spring.iter();
+            let points = points.map(|p| format!("{:.2} N at {:.1} mm", p.force_n, p.depth_mm));
+            parts.push(format!("spring {}", points.collect::<Vec<_>>().join(", ")));
+        }
+        if law.damping_s_m > 0.0 {
+            parts.push(format!("damping {:.2} s/m", law.damping_s_m));
+        }
+        if let Some(part) = &law.relaxation {
+            let (stiffness, time_s) = (part.stiffness_n_m, part.time_s);
+            parts.push(format!("relaxation {stiffness:.0} N/m in {time_s:.2} s"));
+        }
+        if let Some(part) = &law.imprint {
+            let (share, yield_mm) = (100.0 * part.share, part.yield_mm);
+            parts.push(format!("imprint {share:.0} % beyond {yield_mm:.1} mm"));
+        }
+        if let Some(part) = &law.drag {
+            let (viscous, plough) = (part.viscous_n_s_m2, part.plough_n_m);
+            parts.push(format!("drag {viscous:.0} N·s/m² + {plough:.0} N/m"));
+        }
+        if let Some(part) = &law.adhesion {
+            let (pull_n, stiffness) = (part.pull_n, part.stiffness_n_m);
+            parts.push(format!("pull {pull_n:.2} N at {stiffness:.0} N/m"));
+        }
+        writeln!(f, "{}", parts.join("; "))?;
+        let low = &self.lowered;
+        write!(
+            f,
+            "               on the Touch: spring up to {:.0} N/m, damping {:.2} s/m, relaxation {:.0} N/m, pull {:.0} N/m",
+            low.stiffness_n_m, low.damping_s_m, low.relaxation_n_m, low.adhesion_n_m
+        )
+    }
+}
+
 /// Sizes, bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Bytes {
@@ -215,6 +297,10 @@ impl Document {
                 law: texture.friction.law,
             },
             wall: texture.wall,
+            contact: texture
+                .contact
+                .zip(LoweredContact::of(asset))
+                .map(|(law, lowered)| Contact { law, lowered }),
             gains: texture.gains,
             attributes,
             bytes: Bytes {

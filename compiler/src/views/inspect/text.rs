@@ -92,6 +92,9 @@ fn write_text(
         "  wall         {:.0} N/m, {:.3} N·s/m",
         d.wall.stiffness_n_m, d.wall.damping_n_s_m
     )?;
+    if let Some(contact) = &d.contact {
+        writeln!(out, "  contact      {contact}")?;
+    }
     writeln!(
         out,
         "  gains        vibration {:.5} s²/m × {:.2} N, effective mass {:.3} kg",

@@ -3,6 +3,7 @@
 use super::Stroke;
 use asperity_formats::Coupling;
 use asperity_runtime::{HostTexture, Renderer, Sample, State};
+use asperity_texture::model::ContactLaw;
 use std::f64::consts::PI;
 
 /// Time in which a stroke comes to its speed, and to rest, s.
@@ -20,6 +21,7 @@ pub(super) struct Hand<'a> {
     pub(super) renderer: &'a Renderer,
     pub(super) texture: &'a HostTexture,
     pub(super) coupling: Coupling,
+    pub(super) contact: Option<ContactLaw>,
     pub(super) rate_hz: f32,
     pub(super) seed: u64,
 }
@@ -29,13 +31,27 @@ impl Hand<'_> {
         (time_s * self.rate_hz).round() as usize
     }
 
+    /// The depth at which the surface bears a force once it has yielded, m.
+    fn depth_m(&self, force_n: f64) -> f64 {
+        let wall = self.renderer.wall(&self.coupling);
+        let stiffness_n_m = f64::from(wall.stiffness.0).max(1.0);
+        let Some(law) = &self.contact else {
+            return force_n / stiffness_n_m;
+        };
+        let asked_n_m = f64::from(self.coupling.stiffness_n_m);
+        let elastic_mm = law.depth_mm(force_n * asked_n_m / stiffness_n_m, asked_n_m);
+        let stays_mm = law.imprint.map_or(0.0, |imprint| {
+            let beyond_mm = (elastic_mm - imprint.yield_mm).max(0.0);
+            imprint.share * beyond_mm / (1.0 - imprint.share).max(0.01)
+        });
+        (elastic_mm + stays_mm) / 1000.0
+    }
+
     /// The vibration of a stroke, m/s² before device gain. Each stroke, by its number, has an
     /// excitation of its own.
     pub(super) fn stroke(&self, stroke: &Stroke, number: u64) -> Vec<f64> {
-        let wall = self.renderer.wall(&self.coupling);
-        let stiffness_n_m = f64::from(wall.stiffness.0);
         // Already in contact: a stroke begins without a tap.
-        let z_m = -f64::from(stroke.force_n) / stiffness_n_m.max(1.0);
+        let z_m = -self.depth_m(f64::from(stroke.force_n));
         let ticks = self.ticks(stroke.time_s);
         let period_s = 1.0 / f64::from(self.rate_hz);
         let length_s = ticks as f64 * period_s;

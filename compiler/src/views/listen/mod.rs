@@ -182,6 +182,7 @@ pub fn perform(
         renderer: &renderer,
         texture: &slot,
         coupling: *asset.coupling(),
+        contact: raise(asset).contact,
         rate_hz,
         seed,
     };

@@ -1,0 +1,106 @@
+//! Contact laws from the neighbours of a latent, as friction has them, moved by the words of a prompt.
+
+mod mix;
+mod table;
+mod words;
+
+pub use mix::{Share, mixed};
+pub use table::{Material, materials};
+pub use words::worded;
+
+use super::{
+    description::{Anchor, ModelDescription},
+    friction,
+};
+use asperity_model::CONTACT_LAWS;
+use asperity_texture::model::{ContactLaw, FrictionAnchor, TextureModel};
+
+/// Least distance of a neighbour, 1 − cosine: what is nearer is the material itself.
+const NEAREST: f64 = 1e-9;
+/// Cosine from which a latent is close to a material: those of a boiled sweet and of slime are further apart.
+const CLOSE: f64 = 0.75;
+/// Part of μ by which a film changes it at least.
+const LEAST_SLIDE: f64 = 1e-3;
+
+/// The weights of friction over the distance 1 − cosine: the latent of a material has its law alone.
+fn shares<'a>(z: &[f32], description: &'a ModelDescription) -> Vec<(f64, &'a Anchor)> {
+    let near = friction::neighbours(z, &description.anchors, description.friction);
+    let weight = |near: &friction::Neighbour| near.weight / (1.0 - near.cosine).max(NEAREST);
+    let sum: f64 = near.iter().map(weight).sum();
+    let anchors = near.iter();
+    anchors
+        .map(|near| (weight(near) / sum, &description.anchors[near.index]))
+        .collect()
+}
+
+/// The contact law at a latent; `None` where most of its neighbours, by weight, do not give way, and far from all that do.
+#[must_use]
+pub fn at(z: &[f32], description: &ModelDescription) -> Option<ContactLaw> {
+    let shares = shares(z, description);
+    let close = |(_, anchor): &(f64, &Anchor)| {
+        table::material(&anchor.name).is_some() && friction::cosine(z, &anchor.z) >= CLOSE
+    };
+    if !shares.iter().any(close) {
+        return None;
+    }
+    let share = |&(weight, anchor): &(f64, &Anchor)| Share {
+        weight,
+        law: table::material(&anchor.name).map(|material| &material.law),
+        stiffness_n_m: anchor.stiffness_n_m,
+    };
+    mixed(&shares.iter().map(share).collect::<Vec<_>>())
+}
+
+/// The name of the material that has the largest share at a latent.
+#[must_use]
+pub fn nearest<'a>(z: &[f32], description: &'a ModelDescription) -> Option<&'a str> {
+    let shares = shares(z, description).into_iter();
+    let (_, anchor) = shares.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(&anchor.name)
+}
+
+/// Takes the films that carry a load, such as honey's, into μ and its anchors.
+fn slide(texture: &mut TextureModel, z: &[f32], description: &ModelDescription) {
+    let near = shares(z, description);
+    let film = |name: &str| table::material(name).and_then(|material| material.mu);
+    let anchors = near.iter().map(|(weight, anchor)| FrictionAnchor {
+        name: anchor.name.clone(),
+        mu: film(&anchor.name).unwrap_or(anchor.mu),
+        weight: *weight,
+    });
+    let anchors: Vec<FrictionAnchor> = anchors.collect();
+    let own: f64 = near.iter().map(|(weight, anchor)| weight * anchor.mu).sum();
+    let slid: f64 = anchors.iter().map(|anchor| anchor.weight * anchor.mu).sum();
+    if own > 0.0 && (slid / own - 1.0).abs() > LEAST_SLIDE {
+        texture.friction.mu *= slid / own;
+        texture.friction.anchors = anchors;
+    }
+}
+
+/// Gives a texture a law, and the wall and the friction that go with it. `friction` is the latent of its μ.
+pub fn give(
+    texture: &mut TextureModel,
+    law: Option<ContactLaw>,
+    friction: &[f32],
+    description: &ModelDescription,
+) {
+    if law.is_some() {
+        slide(texture, friction, description);
+    }
+    set(texture, law);
+}
+
+/// Gives a texture a law, and the wall that goes with it.
+pub fn set(texture: &mut TextureModel, law: Option<ContactLaw>) {
+    if let Some(law) = &law {
+        let slope = law.stiffness_n_m();
+        texture.wall.stiffness_n_m = slope.unwrap_or(texture.wall.stiffness_n_m);
+        if law.damping_s_m > 0.0 {
+            texture.wall.damping_n_s_m = 0.0;
+        }
+    }
+    texture.contact = law;
+}
+
+/// The tables, which decide textures as the model does.
+pub static TABLES: [&str; 2] = [CONTACT_LAWS, words::TABLE];
