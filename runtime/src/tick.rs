@@ -95,12 +95,14 @@ impl<A: RenderArithmetic> Renderer<A> {
         state: &mut State<A>,
         tip: &Pressing<A>,
     ) -> SurfaceForce<A> {
-        let lengths = self
-            .bristle
-            .lengths(&state.friction, tip.motion, tip.normal);
-        law.heal(&mut state.contact, lengths, |length| {
-            self.bristle.force(length)
-        });
+        if law.heals() {
+            let lengths = self
+                .bristle
+                .lengths(&state.friction, tip.motion, tip.normal);
+            law.heal(&mut state.contact, lengths, |length| {
+                self.bristle.force(length)
+            });
+        }
         law.step(&self.passivity, wall, &mut state.contact, tip)
     }
 

@@ -229,6 +229,12 @@ impl<A: Arithmetic> ContactLaw<A> {
         })
     }
 
+    /// Returns true if slip heals an imprint.
+    #[inline(always)]
+    pub(crate) fn heals(&self) -> bool {
+        self.heals > Quantity::ZERO
+    }
+
     /// The imprint heals with the last slip along the surface, which friction paid for. `lengths` are
     /// the deflection that was left of what the last tick reached, and the one that this tick reaches;
     /// `force` gives the friction of a deflection.
@@ -267,32 +273,17 @@ impl<A: ShapeLookup + Pushing + Magnitudes> ContactLaw<A> {
 
         // What yields; then how far the elastic depth has changed. A surface that changed in contact
         // has yielded before.
-        let imprint = state.imprint.max(self.share * (tip.before - self.yields));
-        let before = (tip.before - imprint).max(zero);
-        let yielded = self.share * (tip.depth - self.yields);
-        if yielded > state.imprint {
-            let inward = -tip.outward.min(Quantity::ZERO);
-            state.imprint = yielded;
-            state.crunch = inward * Quantity::<A, MillimetrePerMetre>::whole(1000);
-        } else {
-            let left = Quantity::<A, Fraction>::of(CRUNCH) * state.crunch;
-            state.crunch = left.above(Quantity::of(SLOWEST_MM_S));
+        let mut imprint = zero;
+        if self.share > Quantity::ZERO {
+            imprint = state.imprint.max(self.share * (tip.before - self.yields));
+            self.give(state, tip);
         }
+        let before = (tip.before - imprint).max(zero);
         let elastic = (tip.depth - state.imprint).max(zero);
         let deeper = elastic - before;
 
-        // The branch, period by period.
-        let ticks = tip.elapsed_ticks.clamp(1, 3);
-        let part = Quantity::<A, Fraction>::of([1.0, 0.5, 1.0 / 3.0][ticks as usize - 1]);
-        let held = self.held * (part * deeper);
-        let taken = Quantity::<A, RelaxingNewton>::sum_of_products(
-            [(lowered.relaxing, held)],
-            Cut::At(STRONGEST_N),
-        );
-        let strongest = Quantity::of(STRONGEST_N);
-        for _ in 0..ticks {
-            let relaxed = state.relaxing - (self.relaxes * state.relaxing).settled() + taken;
-            state.relaxing = relaxed.min(strongest).max(-strongest).settled();
+        if self.relaxing > Quantity::ZERO {
+            self.relax(state, lowered.relaxing, deeper, tip.elapsed_ticks);
         }
         if tip.depth <= zero {
             return self.recover(passivity, state, tip);
@@ -305,8 +296,10 @@ impl<A: ShapeLookup + Pushing + Magnitudes> ContactLaw<A> {
         let damping: Quantity<A, NewtonSecondPerMetre> =
             lowered.wall.damping + lowered.damping * load;
         let total = Quantity(A::left_of(load.0, (damping * tip.outward).0));
-        let most = (lowered.sticking * elastic).min(self.pull);
-        state.pull = (state.pull - lowered.sticking * deeper).clamp_from_zero(most);
+        if self.pull > Quantity::ZERO {
+            let most = (lowered.sticking * elastic).min(self.pull);
+            state.pull = (state.pull - lowered.sticking * deeper).clamp_from_zero(most);
+        }
         let drag = (self.viscous * tip.speed + self.plough) * tip.depth;
         state.load = load;
         SurfaceForce {
@@ -314,6 +307,43 @@ impl<A: ShapeLookup + Pushing + Magnitudes> ContactLaw<A> {
             total: total - state.pull,
             grip: load + drag,
             limit: tip.mu * load + drag,
+        }
+    }
+
+    /// The surface yields to the tip, and crunches as fast.
+    #[inline(always)]
+    fn give(&self, state: &mut ContactState<A>, tip: &Pressing<A>) {
+        let yielded = self.share * (tip.depth - self.yields);
+        if yielded > state.imprint {
+            let inward = -tip.outward.min(Quantity::ZERO);
+            state.imprint = yielded;
+            state.crunch = inward * Quantity::<A, MillimetrePerMetre>::whole(1000);
+        } else {
+            let left = Quantity::<A, Fraction>::of(CRUNCH) * state.crunch;
+            state.crunch = left.above(Quantity::of(SLOWEST_MM_S));
+        }
+    }
+
+    /// The Maxwell branch follows the elastic depth, period by period.
+    #[inline(always)]
+    fn relax(
+        &self,
+        state: &mut ContactState<A>,
+        stiffness: Quantity<A, NewtonPerMetre>,
+        deeper: Quantity<A, Metre>,
+        elapsed_ticks: u32,
+    ) {
+        let ticks = elapsed_ticks.clamp(1, 3);
+        let part = Quantity::<A, Fraction>::of([1.0, 0.5, 1.0 / 3.0][ticks as usize - 1]);
+        let held = self.held * (part * deeper);
+        let taken = Quantity::<A, RelaxingNewton>::sum_of_products(
+            [(stiffness, held)],
+            Cut::At(STRONGEST_N),
+        );
+        let strongest = Quantity::of(STRONGEST_N);
+        for _ in 0..ticks {
+            let relaxed = state.relaxing - (self.relaxes * state.relaxing).settled() + taken;
+            state.relaxing = relaxed.min(strongest).max(-strongest).settled();
         }
     }
 
