@@ -19,7 +19,8 @@ use crate::{
     sample::{Output, Sample},
     stage::{
         contact::DistanceField,
-        contact_law::{ContactState, ForceCrossing},
+        contact_law::ContactState,
+        force_crossing::ForceCrossing,
         friction_law::FactorCrossing,
         recursion::{Recursion, VibrationSample},
         upsample::Upsampler,

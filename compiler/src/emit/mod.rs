@@ -1,6 +1,7 @@
 //! Everything that knows the bytes: models into assets, the gate before they are written,
 //! files, and the way back.
 
+mod contact;
 pub mod lower;
 pub mod pack;
 pub mod raise;

@@ -27,7 +27,7 @@ use asperity_texture::model::{
 #[must_use]
 pub fn raise(asset: &Asset<'_>) -> TextureModel {
     let coupling = asset.coupling();
-    let (wall, contact) = super::lower::raise_contact(asset);
+    let (wall, contact) = super::contact::raise(asset);
     TextureModel {
         name: asset.name().to_owned(),
         grid: grid(asset.grid()),

@@ -7,6 +7,7 @@
 pub mod contact;
 pub mod contact_law;
 pub mod excitation;
+pub(crate) mod force_crossing;
 pub mod friction;
 pub(crate) mod friction_law;
 pub mod limiter;

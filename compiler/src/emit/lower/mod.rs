@@ -16,7 +16,6 @@
 //! # Ok::<(), asperity::emit::lower::LowerError>(())
 //! ```
 
-mod contact;
 mod error;
 mod table;
 #[cfg(test)]
@@ -24,13 +23,12 @@ mod tests;
 
 pub use error::LowerError;
 
+use super::contact::{self, LoweredLaw};
 use asperity_formats::{
     self as formats, Anchor, AssetParts, Coupling, EncodeError, FormatError, FrictionParts,
     GridParts, ModelParts, TapParts, limits,
 };
 use asperity_texture::model::{Numerator, TapTrace, TextureModel, VertexKind, mesh};
-use contact::LoweredLaw;
-pub(super) use contact::raise as raise_contact;
 use serde::Serialize;
 use table::ModelTable;
 

@@ -132,8 +132,7 @@ fn rate(recovery_s: f64) -> f64 {
 
 /// Time of a recovery of this rate, s; 0 where an asset can hold no such time.
 fn recovery_s(rate: f64) -> f64 {
-    const LONGEST_S: f64 = 60.0;
-    if rate * LONGEST_S >= 1.0 {
+    if rate * f64::from(limits::MAX_RECOVERY_S) >= 1.0 {
         1.0 / rate
     } else {
         0.0

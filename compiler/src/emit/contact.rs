@@ -89,7 +89,7 @@ fn spring(law: &ContactLaw) -> Result<Vec<formats::SpringPoint>, EncodeError> {
 }
 
 /// The law that an asset holds, and its wall.
-pub(in crate::emit) fn raise(asset: &formats::Asset<'_>) -> (Wall, Option<ContactLaw>) {
+pub(super) fn raise(asset: &formats::Asset<'_>) -> (Wall, Option<ContactLaw>) {
     let coupling = asset.coupling();
     let mut wall = Wall {
         stiffness_n_m: f64::from(coupling.stiffness_n_m),
