@@ -39,12 +39,7 @@ impl Hand<'_> {
             return force_n / stiffness_n_m;
         };
         let asked_n_m = f64::from(self.coupling.stiffness_n_m);
-        let elastic_mm = law.depth_mm(force_n * asked_n_m / stiffness_n_m, asked_n_m);
-        let stays_mm = law.imprint.map_or(0.0, |imprint| {
-            let beyond_mm = (elastic_mm - imprint.yield_mm).max(0.0);
-            imprint.share * beyond_mm / (1.0 - imprint.share).max(0.01)
-        });
-        (elastic_mm + stays_mm) / 1000.0
+        law.pressed_mm(force_n * asked_n_m / stiffness_n_m, asked_n_m) / 1000.0
     }
 
     /// The vibration of a stroke, m/s² before device gain. Each stroke, by its number, has an

@@ -147,6 +147,28 @@ impl ContactLaw {
         let (from, low_n, slope) = last.unwrap_or((0.0, 0.0, stiffness_n_m));
         from + 1000.0 * (force_n - low_n) / slope.max(1e-9)
     }
+
+    /// The force at a depth that nothing pressed before, mm, slowly: [`ContactLaw::spring_n`] less
+    /// what has yielded, N.
+    #[must_use]
+    pub fn pressed_n(&self, depth_mm: f64, stiffness_n_m: f64) -> f64 {
+        let stays_mm = self.imprint.map_or(0.0, |imprint| {
+            imprint.share * (depth_mm - imprint.yield_mm).max(0.0)
+        });
+        self.spring_n(depth_mm - stays_mm, stiffness_n_m)
+    }
+
+    /// The depth at which the surface bears a force once it has yielded, mm: the inverse of
+    /// [`ContactLaw::pressed_n`]. Where all that is deeper stays, a hundredth of it springs back.
+    #[must_use]
+    pub fn pressed_mm(&self, force_n: f64, stiffness_n_m: f64) -> f64 {
+        let elastic_mm = self.depth_mm(force_n, stiffness_n_m);
+        let stays_mm = self.imprint.map_or(0.0, |imprint| {
+            let beyond_mm = (elastic_mm - imprint.yield_mm).max(0.0);
+            imprint.share * beyond_mm / (1.0 - imprint.share).max(0.01)
+        });
+        elastic_mm + stays_mm
+    }
 }
 
 #[cfg(test)]
@@ -172,6 +194,20 @@ mod tests {
         }
         assert_eq!(law.stiffness_n_m(), Some(500.0));
         assert_eq!(law.steepest_n_m(), Some(500.0));
+        let yielding = ContactLaw {
+            imprint: Some(Imprint {
+                yield_mm: 4.0,
+                share: 0.75,
+                heal: 0.0,
+                recovery_s: 0.0,
+            }),
+            ..law.clone()
+        };
+        for (depth, elastic) in [(3.0, 3.0), (4.0, 4.0), (28.0, 10.0), (68.0, 20.0)] {
+            let force = law.spring_n(elastic, 0.0);
+            assert!((yielding.pressed_n(depth, 0.0) - force).abs() < 1e-12);
+            assert!((yielding.pressed_mm(force, 0.0) - depth).abs() < 1e-9);
+        }
         let wall = ContactLaw::default();
         assert_eq!(
             (wall.stiffness_n_m(), wall.spring_n(2.0, 500.0)),

@@ -155,7 +155,7 @@ fn draw_wall(canvas: &mut Canvas, rect: Rect, model: &TextureModel) {
     let damping_n = wall.damping_n_s_m * PRESS_SPEED_M_S;
     let top_n = 1.2 * limit_n.max(0.0) + damping_n.max(0.0);
     let depth_mm = match &model.contact {
-        Some(law) => law.depth_mm(top_n, wall.stiffness_n_m),
+        Some(law) => law.pressed_mm(top_n, wall.stiffness_n_m),
         None => 1000.0 * top_n / wall.stiffness_n_m,
     };
     let panel = Panel::new(
@@ -168,7 +168,7 @@ fn draw_wall(canvas: &mut Canvas, rect: Rect, model: &TextureModel) {
     let depth_mm = panel.x.max;
     let force_n = |depth_mm: f64, speed_m_s: f64| {
         let spring_n = match &model.contact {
-            Some(law) => law.spring_n(depth_mm, wall.stiffness_n_m),
+            Some(law) => law.pressed_n(depth_mm, wall.stiffness_n_m),
             None => wall.stiffness_n_m * depth_mm / 1000.0,
         };
         (spring_n + wall.damping_n_s_m * speed_m_s).max(0.0)
