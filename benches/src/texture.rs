@@ -2,8 +2,10 @@
 //! 13 taps of 100 samples at 10 kHz. They are synthetic: only their sizes matter.
 
 use asperity_formats::{
-    Anchor, AssetParts, Coupling, FrictionParts, GridParts, LawPoint, LsfCode, ModelParts,
-    Numerator, TapParts, Vertex, VertexKind, encode, limits::MAX_LAW_POINTS,
+    Adhesion, Anchor, AssetParts, ContactParts, Coupling, Drag, FrictionParts, GridParts, Imprint,
+    LawPoint, LsfCode, ModelParts, Numerator, Relaxation, SpringPoint, TapParts, Vertex,
+    VertexKind, encode,
+    limits::{MAX_LAW_POINTS, MAX_SPRING_POINTS},
 };
 
 const COLUMNS: usize = 8;
@@ -36,7 +38,44 @@ pub fn texture_with_law(order: usize, numerator: Numerator) -> Vec<u8> {
             factor_code: 8192 - 512 * k,
         })
         .collect();
-    encoded(order, numerator, COLUMNS, ROWS, &law)
+    encoded(order, numerator, COLUMNS, ROWS, &law, None)
+}
+
+/// [`texture`] with a contact law that has every part, and the most points of a spring.
+///
+/// # Panics
+/// If the format refuses the texture.
+#[must_use]
+pub fn texture_with_contact(order: usize, numerator: Numerator) -> Vec<u8> {
+    let points: Vec<SpringPoint> = (1..=MAX_SPRING_POINTS as u16)
+        .map(|k| SpringPoint {
+            depth_code: 800 * k,
+            shape_code: 60 * k * k,
+        })
+        .collect();
+    let contact = ContactParts {
+        damping_s_m: 0.2,
+        relaxation: Relaxation {
+            stiffness_n_m: 100.0,
+            time_s: 0.3,
+        },
+        imprint: Imprint {
+            yield_m: 0.5e-3,
+            share: 0.3,
+            heal: 0.1,
+            recovery_s: 2.0,
+        },
+        drag: Drag {
+            viscous_n_s_m2: 300.0,
+            plough_n_m: 30.0,
+        },
+        adhesion: Adhesion {
+            pull_n: 0.2,
+            stiffness_n_m: 100.0,
+        },
+        spring: &points,
+    };
+    encoded(order, numerator, COLUMNS, ROWS, &[], Some(contact))
 }
 
 /// [`texture`] on a grid of its own: `columns` × `rows` vertices, two triangles to each rectangle.
@@ -45,7 +84,7 @@ pub fn texture_with_law(order: usize, numerator: Numerator) -> Vec<u8> {
 /// If the format refuses the texture.
 #[must_use]
 pub fn texture_on(order: usize, numerator: Numerator, columns: usize, rows: usize) -> Vec<u8> {
-    encoded(order, numerator, columns, rows, &[])
+    encoded(order, numerator, columns, rows, &[], None)
 }
 
 fn encoded(
@@ -54,6 +93,7 @@ fn encoded(
     columns: usize,
     rows: usize,
     law: &[LawPoint],
+    contact: Option<ContactParts<'_>>,
 ) -> Vec<u8> {
     let ma_order = if numerator == Numerator::Lsf {
         order.saturating_sub(2).max(1)
@@ -118,7 +158,7 @@ fn encoded(
             effective_mass_kg: 0.05,
             f_max_n: 3.3,
         },
-        contact: None,
+        contact,
         provenance: None,
         preview_png: None,
     };

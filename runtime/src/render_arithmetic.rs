@@ -5,9 +5,8 @@ use crate::{
     model::{barycentric::WeightSearch, mixture::RowMixture, section_pair::SectionProduct},
     range::Checked,
     stage::{
-        contact_law::ShapeLookup, excitation::GaussianCubic, friction_law::FactorLookup,
-        limiter::Shortening, recursion::InnerProduct, sample_gate::Positions,
-        velocity::Differences, wall::Pushing,
+        excitation::GaussianCubic, friction_law::FactorLookup, limiter::Shortening,
+        recursion::InnerProduct, sample_gate::Positions, velocity::Differences, wall::Pushing,
     },
 };
 
@@ -24,7 +23,6 @@ pub trait RenderArithmetic:
     + Shortening
     + Pushing
     + FactorLookup
-    + ShapeLookup
 {
 }
 

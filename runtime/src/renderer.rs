@@ -18,6 +18,7 @@ use crate::{
         velocity::VelocityEstimator,
         wall::Wall,
     },
+    state::State,
     update::following::{Following, fraction_after},
 };
 use asperity_formats::{self as formats, Solid};
@@ -128,10 +129,24 @@ impl<A: RenderArithmetic> Renderer<A> {
         prepared.lowered(&self.passivity, self.wall(coupling))
     }
 
-    /// A wall, lowered to what the device can bear.
+    /// Takes a wall, and the contact law on it, lowered to what the device can bear.
     #[inline(always)]
-    pub(crate) fn wall_of(&self, coupling: &Coupling<A>) -> Wall<A> {
-        self.passivity.bear(coupling.wall)
+    pub(crate) fn lower(
+        &self,
+        coupling: &Coupling<A>,
+        law: Option<&ContactLaw<A>>,
+        state: &mut State<A>,
+    ) {
+        state.lowered.wall = self.passivity.bear(coupling.wall);
+        if let Some(law) = law {
+            self.lower_law(law, state);
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn lower_law(&self, law: &ContactLaw<A>, state: &mut State<A>) {
+        state.lowered = law.lowered(&self.passivity, state.lowered.wall);
     }
 }
 

@@ -10,8 +10,8 @@ use crate::{
     render_arithmetic::RenderArithmetic,
     stage::{
         contact::DistanceField, contact_law::ContactState, friction::FrictionState,
-        sample_gate::GateState, tap::TapState, velocity::VelocityState, vibration::Vibration,
-        wall::Wall,
+        passivity::Lowered, sample_gate::GateState, tap::TapState, velocity::VelocityState,
+        vibration::Vibration,
     },
 };
 use core::mem::MaybeUninit;
@@ -32,8 +32,8 @@ pub struct State<A: RenderArithmetic = Float> {
     pub(crate) contact: ContactState<A>,
     /// The last force, N.
     pub(crate) force: StoredVector<A, Newton>,
-    /// The texture's wall, lowered to what the device can bear.
-    pub(crate) wall: Wall<A>,
+    /// Wall and contact law of the texture, lowered to what the device can bear.
+    pub(crate) lowered: Lowered<A>,
     pub(crate) counters: Counters,
 }
 
@@ -51,7 +51,7 @@ impl<A: RenderArithmetic> State<A> {
             friction: FrictionState::default(),
             contact: ContactState::UNTOUCHED,
             force: StoredVector::ZERO,
-            wall: Wall::NONE,
+            lowered: Lowered::NONE,
             counters: Counters::default(),
         }
     }
@@ -79,10 +79,9 @@ impl<A: RenderArithmetic> State<A> {
 
     /// Changes to another texture on the same solid.
     #[cold]
-    pub(crate) fn change_texture(&mut self, texture: u32, wall: Wall<A>) {
+    pub(crate) fn change_texture(&mut self, texture: u32) {
         self.vibration.change_texture(texture);
         self.contact = ContactState::UNTOUCHED;
-        self.wall = wall;
     }
 
     /// Motion starts anew: no velocity, no bristle, no impact, no sound.

@@ -155,16 +155,16 @@ impl<A: RenderArithmetic> Renderer<A> {
             Quantity::whole(1)
         };
         crossing.coupling.follow(&texture.coupling, fraction);
-        if texture.contact.is_some() | crossing.forces.is_lawful() {
+        if texture.contact_law().is_some() | crossing.forces.is_lawful() {
             // The forces themselves follow.
             crossing.coupling.wall = texture.coupling.wall;
         }
         let coupling = crossing.coupling;
+        self.lower(&coupling, texture.contact_law(), state);
         let touched = Touched {
             texture,
             field,
             coupling: &coupling,
-            wall: self.wall_of(&coupling),
         };
         let following = || self.following.of(&texture.plan);
         if !state.vibration.is_on(texture.id()) {
@@ -177,7 +177,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         let mu = |speed| factor.of(coupling.mu, &texture.law, speed, fraction);
         let sound =
             |vibration: &mut Vibration<A>, sounding| crossing.sound(vibration, upsampler, sounding);
-        let mix = |force| forces.step(force, texture.contact.is_some(), fraction);
+        let mix = |force| forces.step(force, texture.contact_law().is_some(), fraction);
         let output = self.force(touched, state, sample, mu, mix, sound);
         (crossing.factor, crossing.forces) = (factor, forces);
         state.vibration.query(

@@ -31,7 +31,7 @@ use crate::{
         contact_law::{ContactLaw, Pressing, SurfaceForce},
         recursion::VibrationSample,
         vibration::Vibration,
-        wall::{NormalForce, Wall},
+        wall::NormalForce,
     },
     state::State,
     texture::Texture,
@@ -43,8 +43,6 @@ pub(crate) struct Touched<'a, S: Capacity, A: RenderArithmetic> {
     pub(crate) texture: &'a Texture<S, A>,
     pub(crate) field: &'a DistanceField<A>,
     pub(crate) coupling: &'a Coupling<A>,
-    /// The wall of the coupling, lowered to what the device can bear.
-    pub(crate) wall: Wall<A>,
 }
 
 impl<A: RenderArithmetic> Renderer<A> {
@@ -57,7 +55,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         sample: &Sample<A>,
     ) -> Output<A> {
         if !state.vibration.is_on(texture.id()) {
-            state.change_texture(texture.id(), self.wall_of(&texture.coupling));
+            self.change_texture(texture, state);
         }
         let fraction = || self.following.of(&texture.plan);
         state.vibration.prepare(texture, fraction);
@@ -65,7 +63,6 @@ impl<A: RenderArithmetic> Renderer<A> {
             texture,
             field: &self.field,
             coupling: &texture.coupling,
-            wall: state.wall,
         };
         let (recursion, upsampler) = (texture.recursion(), texture.upsampler());
         let sound = |vibration: &mut Vibration<A>, sounding| {
@@ -74,7 +71,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         let mu = |speed| texture.friction_at(speed);
         let output = self.force(touched, state, sample, mu, |force| force, sound);
         if state.vibration.takes_query() {
-            state.wall = self.wall_of(&texture.coupling);
+            self.lower(&texture.coupling, texture.contact_law(), state);
         }
         state.vibration.query(
             texture,
@@ -84,6 +81,13 @@ impl<A: RenderArithmetic> Renderer<A> {
         output
     }
 
+    #[cold]
+    #[inline(never)]
+    fn change_texture<S: Capacity>(&self, texture: &Texture<S, A>, state: &mut State<A>) {
+        state.change_texture(texture.id());
+        self.lower(&texture.coupling, texture.contact_law(), state);
+    }
+
     /// The forces of a contact law: a function of its own, so that a tick without one keeps its
     /// registers.
     #[cold]
@@ -91,7 +95,6 @@ impl<A: RenderArithmetic> Renderer<A> {
     fn give_way(
         &self,
         law: &ContactLaw<A>,
-        wall: Wall<A>,
         state: &mut State<A>,
         tip: &Pressing<A>,
     ) -> SurfaceForce<A> {
@@ -103,7 +106,12 @@ impl<A: RenderArithmetic> Renderer<A> {
                 self.bristle.force(length)
             });
         }
-        law.step(&self.passivity, wall, &mut state.contact, tip)
+        law.step(
+            &state.lowered,
+            self.passivity.period(),
+            &mut state.contact,
+            tip,
+        )
     }
 
     /// The force equation on what is touched. `mu` gives μ at a speed; `mix` adds what remains of
@@ -122,9 +130,7 @@ impl<A: RenderArithmetic> Renderer<A> {
             texture,
             field,
             coupling,
-            wall,
         } = touched;
-        let law = &texture.contact;
 
         // Where the stylus is, and how it moves: δ, n̂, v, t̂.
         let gated = self.gate.step(&mut state.gate, sample);
@@ -147,7 +153,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         let mu = mu(speed);
 
         // F_n n̂: the wall, or a contact law in its place. Its elastic part is the load.
-        let surface = if law.is_some() {
+        let surface = if let Some(law) = texture.contact_law() {
             let tip = Pressing {
                 before: (-state.tap.distance()).max(Quantity::ZERO),
                 depth,
@@ -158,9 +164,9 @@ impl<A: RenderArithmetic> Renderer<A> {
                 mu,
                 elapsed_ticks: gated.elapsed_ticks,
             };
-            self.give_way(law, wall, state, &tip)
+            self.give_way(law, state, &tip)
         } else {
-            let NormalForce { spring, total } = wall.step(depth, velocity.outward);
+            let NormalForce { spring, total } = state.lowered.wall.step(depth, velocity.outward);
             SurfaceForce {
                 load: spring,
                 total,

@@ -15,7 +15,7 @@ use asperity_benches::{
     motion::Motion,
     queries::queries,
     reference::Reference,
-    texture::texture,
+    texture::{texture, texture_with_contact},
 };
 use asperity_formats::{Asset, Numerator};
 use asperity_tests::{
@@ -39,12 +39,27 @@ const STROKE: usize = 2;
 const BEYOND: usize = 3;
 /// Instructions that the mean tick of a motion is to take at most.
 const GOAL: u64 = 700;
-const TEXTURES: [(&str, usize, Numerator); 4] = [
+/// Every texture: label, AR order, numerator. The last ones have a contact law.
+const TEXTURES: [(&str, usize, Numerator); 6] = [
     ("order 20, ARMA", 20, Numerator::Lsf),
     ("order 20, Nyquist zero", 20, Numerator::Nyquist),
     ("order 20, AR", 20, Numerator::None),
     ("order 4, Nyquist zero", 4, Numerator::Nyquist),
+    ("order 20, ARMA, contact", 20, Numerator::Lsf),
+    ("order 4, zero, contact", 4, Numerator::Nyquist),
 ];
+/// How many textures are walls.
+const WALLS: usize = 4;
+
+/// The bytes of a texture.
+fn bytes_of(index: usize) -> Vec<u8> {
+    let (_, order, numerator) = TEXTURES[index];
+    if index < WALLS {
+        texture(order, numerator)
+    } else {
+        texture_with_contact(order, numerator)
+    }
+}
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = env::args().skip(1).collect();
@@ -74,9 +89,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         return many(&arguments);
     }
     if let [texture_index, motion_index, ratio, ticks] = arguments.as_slice() {
-        let (_, order, numerator) = TEXTURES[texture_index.parse::<usize>()?];
         run(
-            &texture(order, numerator),
+            &bytes_of(texture_index.parse()?),
             motion_index.parse()?,
             ratio.parse()?,
             ticks.parse()?,
@@ -95,7 +109,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     println!("executed instructions of a sample the usual way (see `reference.rs`)");
     let mut samples = Vec::new();
-    for (index, (label, ..)) in TEXTURES.iter().enumerate() {
+    for (index, (label, ..)) in TEXTURES[..WALLS].iter().enumerate() {
         let usual = |samples: u32| count(&[REFERENCE, &index.to_string(), &samples.to_string()]);
         let a_sample = (usual(2 * TICKS)? - usual(TICKS)?) / u64::from(TICKS);
         println!("{label:<24}{a_sample:>9}");
@@ -124,7 +138,7 @@ fn table(ratio: u32) -> Result<Vec<InstructionCounts>, Box<dyn Error>> {
         print!("{motion:>9}");
     }
     println!("{:>9}  ticks of a cycle, stroke", "spread");
-    for (texture_index, &(label, order, numerator)) in TEXTURES.iter().enumerate() {
+    for (texture_index, &(label, ..)) in TEXTURES.iter().enumerate() {
         print!("{label:<24}");
         let mut counts = Vec::new();
         for motion_index in 0..Motion::ALL.len() {
@@ -143,7 +157,7 @@ fn table(ratio: u32) -> Result<Vec<InstructionCounts>, Box<dyn Error>> {
         print!("{:>8.1}%", (most / least - 1.0) * 100.0);
         let mut before = count_motion(texture_index, STROKE, ratio, TICKS)?;
         let mut cycle = Vec::new();
-        let cycle_samples = Rig::new(&texture(order, numerator)).cycle_samples();
+        let cycle_samples = Rig::new(&bytes_of(texture_index)).cycle_samples();
         for tick in 1..=u32::from(cycle_samples) * ratio {
             let now = count_motion(texture_index, STROKE, ratio, TICKS + tick)?;
             cycle.push(now - before);
@@ -298,8 +312,7 @@ fn load(work_index: usize, times: usize) {
 
 /// The measured program: samples the usual way, a query each.
 fn reference(texture_index: usize, samples: usize) {
-    let (_, order, numerator) = TEXTURES[texture_index];
-    let bytes = texture(order, numerator);
+    let bytes = bytes_of(texture_index);
     let asset = Asset::parse(&bytes).expect("a valid asset");
     let mut reference = Reference::new(&asset);
     for &(speed, force) in queries(&asset).iter().cycle().take(samples) {

@@ -23,18 +23,18 @@
 
 use super::{
     passivity::{Lowered, Passivity},
-    table::Table,
+    spring_shape::SpringShape,
     wall::{Pushing, Wall},
 };
 use crate::{
-    arithmetic::{Arithmetic, Cut, Fixed, Float, Scalar as _},
+    arithmetic::{Arithmetic, Cut},
     math::{exp, min},
     quantity::{
         Magnitudes, Quantity, Vector,
         unit::{
             FineNewton, Fraction, FrictionCoefficient, Metre, MetrePerSecond, MillimetrePerMetre,
             MillimetrePerSecond, Newton, NewtonPerMetre, NewtonSecondPerMetre,
-            NewtonSecondPerSquareMetre, RelaxingNewton, SecondPerMetre,
+            NewtonSecondPerSquareMetre, RelaxingNewton, Second, SecondPerMetre,
         },
     },
 };
@@ -57,8 +57,8 @@ const CRUNCH: f32 = 0.9375;
 /// The law of a texture, or none, prepared for a servo rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ContactLaw<A: Arithmetic> {
-    /// s(e), µm; none for s(e) = e.
-    shape: Table,
+    /// s(e).
+    shape: SpringShape<A>,
     /// λ.
     damping: Quantity<A, SecondPerMetre>,
     /// k₁.
@@ -83,8 +83,6 @@ pub(crate) struct ContactLaw<A: Arithmetic> {
     pull: Quantity<A, Newton>,
     /// k_a.
     sticking: Quantity<A, NewtonPerMetre>,
-    /// True if there is a law.
-    there: bool,
 }
 
 /// State of a [`ContactLaw`].
@@ -163,7 +161,7 @@ impl<A: Arithmetic> ContactState<A> {
 impl<A: Arithmetic> ContactLaw<A> {
     /// A wall.
     pub(crate) const NONE: Self = Self {
-        shape: Table::NONE,
+        shape: SpringShape::NONE,
         damping: Quantity::ZERO,
         relaxing: Quantity::ZERO,
         relaxes: Quantity::ZERO,
@@ -176,7 +174,6 @@ impl<A: Arithmetic> ContactLaw<A> {
         plough: Quantity::ZERO,
         pull: Quantity::ZERO,
         sticking: Quantity::ZERO,
-        there: false,
     };
 
     /// Takes the law of an asset, in place.
@@ -186,8 +183,7 @@ impl<A: Arithmetic> ContactLaw<A> {
         let Some(law) = law else {
             return;
         };
-        self.shape.load(shape(law));
-        self.there = true;
+        self.shape.load(law.points());
         self.damping = Quantity::of(law.damping_s_m).settled();
         let relaxation = &law.relaxation;
         if relaxation.stiffness_n_m > 0.0 {
@@ -208,12 +204,6 @@ impl<A: Arithmetic> ContactLaw<A> {
         self.plough = Quantity::of(law.drag.plough_n_m).settled();
         self.pull = Quantity::of(law.adhesion.pull_n).settled();
         self.sticking = Quantity::of(law.adhesion.stiffness_n_m).settled();
-    }
-
-    /// Returns true if there is a law.
-    #[inline(always)]
-    pub(crate) const fn is_some(&self) -> bool {
-        self.there
     }
 
     /// The law that a device renders on a wall that it bears.
@@ -256,18 +246,17 @@ impl<A: Arithmetic> ContactLaw<A> {
     }
 }
 
-impl<A: ShapeLookup + Pushing + Magnitudes> ContactLaw<A> {
-    /// Advances by a tick on a wall that the device bears.
-    #[inline]
+impl<A: Pushing + Magnitudes> ContactLaw<A> {
+    /// Advances by a tick of a `period`, s, with what the device bears of the law.
+    #[inline(always)]
     pub(crate) fn step(
         &self,
-        passivity: &Passivity<A>,
-        wall: Wall<A>,
+        lowered: &Lowered<A>,
+        period: Quantity<A, Second>,
         state: &mut ContactState<A>,
         tip: &Pressing<A>,
     ) -> SurfaceForce<A> {
         let zero = Quantity::ZERO;
-        let lowered = self.lowered(passivity, wall);
 
         // What yields; then how far the elastic depth has changed. A surface that changed in contact
         // has yielded before.
@@ -284,11 +273,11 @@ impl<A: ShapeLookup + Pushing + Magnitudes> ContactLaw<A> {
             self.relax(state, lowered.relaxing, deeper, tip.elapsed_ticks);
         }
         if tip.depth <= zero {
-            return self.recover(passivity, state, tip);
+            return self.recover(period, state, tip);
         }
 
         // Load, damping, pull and drag.
-        let spring = lowered.wall.stiffness * self.shape_at(elastic);
+        let spring = lowered.wall.stiffness * self.shape.at(elastic);
         let load = (spring + state.relaxing.to::<Newton>()).max(Quantity::ZERO);
         let load = if elastic > zero { load } else { Quantity::ZERO };
         let damping: Quantity<A, NewtonSecondPerMetre> =
@@ -331,24 +320,54 @@ impl<A: ShapeLookup + Pushing + Magnitudes> ContactLaw<A> {
         deeper: Quantity<A, Metre>,
         elapsed_ticks: u32,
     ) {
-        let ticks = elapsed_ticks.clamp(1, 3);
-        let part = Quantity::<A, Fraction>::of([1.0, 0.5, 1.0 / 3.0][ticks as usize - 1]);
-        let held = self.held * (part * deeper);
+        if elapsed_ticks > 1 {
+            self.relax_periods(state, stiffness, deeper, elapsed_ticks);
+        } else {
+            self.relax_a_period(state, stiffness, deeper);
+        }
+    }
+
+    /// [`relax`](Self::relax) over two or three periods, steadily.
+    #[cold]
+    #[inline(never)]
+    fn relax_periods(
+        &self,
+        state: &mut ContactState<A>,
+        stiffness: Quantity<A, NewtonPerMetre>,
+        deeper: Quantity<A, Metre>,
+        elapsed_ticks: u32,
+    ) {
+        let (part, ticks) = if elapsed_ticks == 2 {
+            (0.5, 2)
+        } else {
+            (1.0 / 3.0, 3)
+        };
+        let deeper = Quantity::<A, Fraction>::of(part) * deeper;
+        for _ in 0..ticks {
+            self.relax_a_period(state, stiffness, deeper);
+        }
+    }
+
+    #[inline(always)]
+    fn relax_a_period(
+        &self,
+        state: &mut ContactState<A>,
+        stiffness: Quantity<A, NewtonPerMetre>,
+        deeper: Quantity<A, Metre>,
+    ) {
         let taken = Quantity::<A, RelaxingNewton>::sum_of_products(
-            [(stiffness, held)],
+            [(stiffness, self.held * deeper)],
             Cut::At(STRONGEST_N),
         );
         let strongest = Quantity::of(STRONGEST_N);
-        for _ in 0..ticks {
-            let relaxed = state.relaxing - (self.relaxes * state.relaxing).settled() + taken;
-            state.relaxing = relaxed.min(strongest).max(-strongest).settled();
-        }
+        let relaxed = state.relaxing - (self.relaxes * state.relaxing).settled() + taken;
+        state.relaxing = relaxed.min(strongest).max(-strongest).settled();
     }
 
     /// Nothing presses: every number goes to zero.
     fn recover(
         &self,
-        passivity: &Passivity<A>,
+        period: Quantity<A, Second>,
         state: &mut ContactState<A>,
         tip: &Pressing<A>,
     ) -> SurfaceForce<A> {
@@ -356,7 +375,7 @@ impl<A: ShapeLookup + Pushing + Magnitudes> ContactLaw<A> {
         if state.relaxing.max(-state.relaxing) < weakest {
             state.relaxing = Quantity::ZERO;
         }
-        let travel = tip.speed * passivity.period();
+        let travel = tip.speed * period;
         for _ in 0..tip.elapsed_ticks.clamp(1, 3) {
             let gone = self.recovers * state.imprint + Quantity::<A, Fraction>::of(FRESH) * travel;
             state.imprint = (state.imprint - gone).above(Quantity::of(SHALLOWEST_M));
@@ -366,33 +385,6 @@ impl<A: ShapeLookup + Pushing + Magnitudes> ContactLaw<A> {
         state.reached = Quantity::ZERO;
         SurfaceForce::NONE
     }
-
-    /// s(e), m.
-    #[inline]
-    fn shape_at(&self, elastic: Quantity<A, Metre>) -> Quantity<A, Metre> {
-        if self.shape.is_some() {
-            A::shape(self.shape.at(A::fine_depth(elastic)))
-        } else {
-            elastic
-        }
-    }
-}
-
-/// The points of a shape in micrometres: its own, the origin before them, and the end of the last
-/// line behind them.
-fn shape(law: &formats::ContactLaw<'_>) -> impl Iterator<Item = (u16, u16)> {
-    let points = law.points().map(|p| (p.depth_code, p.shape_code));
-    let count = points.len();
-    let mut last = [(0_u32, 0_u32); 2];
-    for (depth, shape) in law.points().map(|p| (p.depth_code, p.shape_code)) {
-        last = [last[1], (depth.into(), shape.into())];
-    }
-    let [(from, low), (to, high)] = last;
-    let rest = u32::from(u16::MAX) - to;
-    let end = high + (rest * (high - low)).checked_div(to - from).unwrap_or(0);
-    let some = count > 0;
-    let end = (some && rest > 0).then_some((u16::MAX, end as u16));
-    some.then_some((0, 0)).into_iter().chain(points).chain(end)
 }
 
 /// 1 − exp(−x) for x > 0, also where x is small; not for the tick.
@@ -405,41 +397,4 @@ fn decay(x: f32) -> f32 {
         sum = 1.0 - x / f32::from(n) * sum;
     }
     x * sum
-}
-
-/// Conversions between an arithmetic and the integers of a shape.
-pub trait ShapeLookup: Arithmetic {
-    /// A depth in 1/256 µm; 0 for NaN and below 0, the end of the range beyond it.
-    fn fine_depth(depth: Quantity<Self, Metre>) -> u32;
-    /// A shape from units of 2⁻¹⁶ µm.
-    fn shape(fine: u32) -> Quantity<Self, Metre>;
-}
-
-impl ShapeLookup for Float {
-    #[inline(always)]
-    fn fine_depth(depth: Quantity<Self, Metre>) -> u32 {
-        // A cast truncates and saturates, and gives 0 for NaN.
-        (depth.0 * 256.0e6) as u32
-    }
-
-    #[inline(always)]
-    fn shape(fine: u32) -> Quantity<Self, Metre> {
-        Quantity(fine as f32 * (1.0e-6 / 65_536.0))
-    }
-}
-
-impl ShapeLookup for Fixed {
-    #[inline(always)]
-    fn fine_depth(depth: Quantity<Self, Metre>) -> u32 {
-        // 256·10⁶ over the 2²⁸ of a metre is 15625/16384.
-        let bits = u64::from(depth.max(Quantity::ZERO).0.bits());
-        ((bits * 15_625) >> 14) as u32
-    }
-
-    #[inline(always)]
-    fn shape(fine: u32) -> Quantity<Self, Metre> {
-        // 2²⁸/(10⁶·2¹⁶) is 0.004096, here times 2³².
-        let bits = (u64::from(fine) * 17_592_186 + (1 << 31)) >> 32;
-        Quantity(fixed::FixedI32::from_bits(bits as i32))
-    }
 }

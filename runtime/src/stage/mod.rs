@@ -14,6 +14,7 @@ pub mod limiter;
 pub mod passivity;
 pub mod recursion;
 pub mod sample_gate;
+pub(crate) mod spring_shape;
 pub(crate) mod table;
 pub mod tap;
 pub(crate) mod upsample;

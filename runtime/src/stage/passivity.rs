@@ -55,6 +55,16 @@ pub struct Lowered<A: Arithmetic = Float> {
     pub damping: Quantity<A, SecondPerMetre>,
 }
 
+impl<A: Arithmetic> Lowered<A> {
+    /// Nothing at all.
+    pub(crate) const NONE: Self = Self {
+        wall: Wall::NONE,
+        relaxing: Quantity::ZERO,
+        sticking: Quantity::ZERO,
+        damping: Quantity::ZERO,
+    };
+}
+
 impl<A: Arithmetic> Passivity<A> {
     /// The bound of a device of a peak force in a loop at `rate_hz`.
     #[must_use]

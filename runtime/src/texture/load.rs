@@ -98,6 +98,7 @@ impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
         self.coupling = Coupling::new(asset.coupling(), asset.friction().mu());
         self.law.load(asset.friction().law());
         self.contact.load(asset.contact(), self.servo_rate_hz);
+        self.gives_way = asset.contact().is_some();
         self.recursion = Recursion::new(grid.ar_order(), grid.ma_order());
         self.load_models(grid);
         self.plan = Plan::new(&self.models, ticks);

@@ -43,7 +43,9 @@ pub struct Texture<S: Capacity = HostCapacities, A: WeightSearch = Float> {
     pub(crate) taps: TapBank<S, A>,
     pub(crate) coupling: Coupling<A>,
     pub(crate) law: FrictionLaw,
-    pub(crate) contact: ContactLaw<A>,
+    contact: ContactLaw<A>,
+    /// True if there is a contact law.
+    gives_way: bool,
     id: u32,
     recursion: Recursion,
     upsampler: Upsampler<A>,
@@ -71,6 +73,7 @@ impl<S: Capacity, A: WeightSearch + RowMixture + SectionProduct + InnerProduct> 
         coupling: Coupling::NONE,
         law: FrictionLaw::NONE,
         contact: ContactLaw::NONE,
+        gives_way: false,
         id: 0,
         recursion: Recursion::new(0, 0),
         upsampler: Upsampler::NONE,
@@ -101,6 +104,7 @@ impl<S: Capacity, A: WeightSearch + RowMixture + SectionProduct + InnerProduct> 
         self.coupling = Coupling::NONE;
         self.law = FrictionLaw::NONE;
         self.contact = ContactLaw::NONE;
+        self.gives_way = false;
         self.id = 0;
         self.recursion = Recursion::new(0, 0);
         self.upsampler = Upsampler::NONE;
@@ -178,6 +182,16 @@ impl<S: Capacity, A: WeightSearch + RowMixture + SectionProduct + InnerProduct> 
     #[inline]
     pub(crate) const fn id(&self) -> u32 {
         self.id
+    }
+
+    /// The contact law, if there is one.
+    #[inline(always)]
+    pub(crate) const fn contact_law(&self) -> Option<&ContactLaw<A>> {
+        if self.gives_way {
+            Some(&self.contact)
+        } else {
+            None
+        }
     }
 
     /// Length and kind of the recursion.
