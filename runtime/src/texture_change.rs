@@ -43,6 +43,15 @@ pub(crate) struct TextureChange<A: RenderArithmetic> {
     factor: FactorCrossing<A>,
     /// The forces of contact laws.
     pub(crate) forces: ForceCrossing<A>,
+    /// The vibration.
+    vibration: VibrationCrossing<A>,
+    /// True if the last tick was in contact.
+    pub(crate) touching: bool,
+}
+
+/// State of the way from one vibration to the next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct VibrationCrossing<A: RenderArithmetic> {
     /// Recursion of the vibration at work.
     recursion: Recursion,
     /// Ticks that a sample of the vibration at work lasts.
@@ -53,8 +62,6 @@ pub(crate) struct TextureChange<A: RenderArithmetic> {
     fading: Quantity<A, VibrationAcceleration>,
     /// True while the vibration at work belongs to the previous texture.
     changing: bool,
-    /// True if the last tick was in contact.
-    pub(crate) touching: bool,
 }
 
 impl<A: RenderArithmetic> TextureChange<A> {
@@ -63,19 +70,26 @@ impl<A: RenderArithmetic> TextureChange<A> {
         coupling: Coupling::NONE,
         factor: FactorCrossing::START,
         forces: ForceCrossing::START,
-        recursion: Recursion::new(0, 0),
-        ticks_per_sample: 1,
-        heard: Quantity::ZERO,
-        fading: Quantity::ZERO,
-        changing: false,
+        vibration: VibrationCrossing::START,
         touching: false,
     };
 
     /// Returns true while the new texture's first model is being computed or the old vibration fades.
     #[inline]
     pub(crate) fn is_under_way(&self) -> bool {
-        self.changing | (self.fading != Quantity::ZERO)
+        self.vibration.changing | (self.vibration.fading != Quantity::ZERO)
     }
+}
+
+impl<A: RenderArithmetic> VibrationCrossing<A> {
+    /// Silence.
+    const START: Self = Self {
+        recursion: Recursion::new(0, 0),
+        ticks_per_sample: 1,
+        heard: Quantity::ZERO,
+        fading: Quantity::ZERO,
+        changing: false,
+    };
 
     /// [`Vibration::prepare`] on the way from one texture to the next.
     #[inline]
@@ -87,7 +101,6 @@ impl<A: RenderArithmetic> TextureChange<A> {
     ) {
         let ticks = texture.ticks_per_sample();
         if !vibration.is_on(texture.id()) {
-            self.factor.begin();
             if self.ticks_per_sample == ticks {
                 vibration.begin(texture.id(), texture.plan.cycle);
                 self.changing = true;
@@ -170,16 +183,19 @@ impl<A: RenderArithmetic> Renderer<A> {
         if !state.vibration.is_on(texture.id()) {
             state.contact = ContactState::UNTOUCHED;
             crossing.forces.begin();
+            crossing.factor.begin();
         }
-        crossing.prepare(&mut state.vibration, texture, following);
+        crossing
+            .vibration
+            .prepare(&mut state.vibration, texture, following);
         let upsampler = texture.upsampler();
-        let (mut factor, mut forces) = (crossing.factor, crossing.forces);
+        let (factor, forces) = (&mut crossing.factor, &mut crossing.forces);
         let mu = |speed| factor.of(coupling.mu, &texture.law, speed, fraction);
-        let sound =
-            |vibration: &mut Vibration<A>, sounding| crossing.sound(vibration, upsampler, sounding);
         let mix = |force| forces.step(force, texture.contact_law().is_some(), fraction);
+        let fading = &mut crossing.vibration;
+        let sound =
+            |vibration: &mut Vibration<A>, sounding| fading.sound(vibration, upsampler, sounding);
         let output = self.force(touched, state, sample, mu, mix, sound);
-        (crossing.factor, crossing.forces) = (factor, forces);
         state.vibration.query(
             texture,
             Quantity(output.speed_mm_s) + state.contact.crunch,

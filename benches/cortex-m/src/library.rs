@@ -1,7 +1,7 @@
 //! The libraries that the session embeds: the textures of the x86 benches, so that the figures
 //! can be compared, and those that the cost model is fitted to.
 
-use asperity_benches::texture::{texture, texture_on, texture_with_law};
+use asperity_benches::texture::{texture, texture_on, texture_with_contact, texture_with_law};
 use asperity_formats::{
     Numerator,
     library::{encode_library, encoded_len},
@@ -23,6 +23,10 @@ pub(crate) fn write(folder: &Path) -> Result<(), Box<dyn std::error::Error>> {
         ("10 nyquist", texture(10, Numerator::Nyquist)),
         ("10 nyquist, 12", texture_on(10, Numerator::Nyquist, 4, 3)),
         ("10 nyquist, 98", texture_on(10, Numerator::Nyquist, 8, 8)),
+        (
+            "10 nyquist, contact",
+            texture_with_contact(10, Numerator::Nyquist),
+        ),
         ("10 nyquist, law", texture_with_law(10, Numerator::Nyquist)),
         ("10+8", texture(10, Numerator::Lsf)),
         ("15+13", texture(15, Numerator::Lsf)),

@@ -39,6 +39,8 @@ pub struct SceneCase {
     pub triangles: u32,
     /// Laws of friction of its texture: 0 or 1.
     pub laws: u32,
+    /// Contact laws of its texture, with every part: 0 or 1.
+    pub contacts: u32,
     /// Planes, spheres and boxes beside what is touched.
     pub apart: [u32; 3],
 }
@@ -50,6 +52,7 @@ const fn case(texture: &'static str, poles: u32, zeros: u32) -> SceneCase {
         zeros,
         triangles: 56,
         laws: 0,
+        contacts: 0,
         apart: [0; 3],
     }
 }
@@ -66,7 +69,7 @@ const fn beside(apart: [u32; 3]) -> SceneCase {
 }
 
 /// Every case.
-pub const SCENE_CASES: [SceneCase; 17] = [
+pub const SCENE_CASES: [SceneCase; 18] = [
     case("4 nyquist", 4, 0),
     case("10 nyquist", 10, 0),
     case("20 nyquist", 20, 0),
@@ -82,6 +85,10 @@ pub const SCENE_CASES: [SceneCase; 17] = [
     SceneCase {
         laws: 1,
         ..case("10 nyquist, law", 10, 0)
+    },
+    SceneCase {
+        contacts: 1,
+        ..case("10 nyquist, contact", 10, 0)
     },
     beside([8, 0, 0]),
     beside([0, 8, 0]),

@@ -4,7 +4,7 @@ use asperity_formats::Solid;
 use asperity_texture::model::{ModelGrid, Numerator, TextureModel};
 
 /// A model of the executed instructions of the costliest tick on a processor: a sum over poles,
-/// zeros, triangles, a law of friction and surfaces that is never below what was counted.
+/// zeros, triangles, a law of friction, a contact law and surfaces that is never below what was counted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Cost {
     /// Name of the processor.
@@ -19,6 +19,8 @@ pub(super) struct Cost {
     pub(super) triangle: f64,
     /// Cost of the texture's law of friction.
     pub(super) law: f64,
+    /// Cost of the texture's contact law.
+    pub(super) contact: f64,
     /// Cost of the distance to a plane, a sphere and a box.
     pub(super) surfaces: [f64; 3],
     /// The most that the sum is above a count, percent.
@@ -49,7 +51,7 @@ impl Cost {
     /// Executed instructions of the costliest tick.
     pub(super) fn instructions(
         &self,
-        [poles, zeros, triangles, laws]: [usize; 4],
+        [poles, zeros, triangles, laws, contacts]: [usize; 5],
         surfaces: Surfaces,
     ) -> u64 {
         let surfaces = self.surfaces.iter().zip(surfaces.0);
@@ -58,16 +60,25 @@ impl Cost {
             + self.zero * zeros as f64
             + self.triangle * triangles as f64
             + self.law * laws as f64
+            + self.contact * contacts as f64
             + surfaces.map(|(cost, n)| cost * n as f64).sum::<f64>();
         cost.ceil() as u64
     }
 }
 
-/// Returns the counts that the cost of a texture depends on: poles, zeros, triangles and laws of friction (0 or 1).
-pub(super) fn sizes(texture: &TextureModel) -> [usize; 4] {
+/// Returns the counts that the cost of a texture depends on: poles, zeros, triangles, laws of friction and
+/// contact laws (0 or 1).
+pub(super) fn sizes(texture: &TextureModel) -> [usize; 5] {
     let grid = &texture.grid;
     let laws = usize::from(texture.friction.law.is_some());
-    [grid.order, zeros(grid), grid.triangles.len(), laws]
+    let contacts = usize::from(texture.contact.is_some());
+    [
+        grid.order,
+        zeros(grid),
+        grid.triangles.len(),
+        laws,
+        contacts,
+    ]
 }
 
 /// Number of zeros of a grid that are mixed and converted.

@@ -112,17 +112,30 @@ mod tests {
 
     #[test]
     fn no_count_is_above_the_model_nor_further_below_than_stated() {
-        for (processor, [poles, zeros, triangles, laws, planes, spheres, boxes], count) in MEASURED
+        for (
+            processor,
+            [
+                poles,
+                zeros,
+                triangles,
+                laws,
+                contacts,
+                planes,
+                spheres,
+                boxes,
+            ],
+            count,
+        ) in MEASURED
         {
             let cost = COSTS.iter().find(|cost| cost.processor == processor);
             let cost = cost.expect("an entry");
             let surfaces = Surfaces([planes, spheres, boxes]);
-            let modelled = cost.instructions([poles, zeros, triangles, laws], surfaces);
+            let modelled = cost.instructions([poles, zeros, triangles, laws, contacts], surfaces);
             // Both sides are rounded up to a whole instruction.
             let most = (count as f64 * (1.0 + cost.above_percent / 100.0)).ceil() as u64;
             assert!(
                 (count..=most).contains(&modelled),
-                "{processor}, {poles} poles, {zeros} zeros, {laws} laws: {count} counted, {modelled} modelled"
+                "{processor}, {poles} poles, {zeros} zeros, {laws} laws, {contacts} contact laws: {count} counted, {modelled} modelled"
             );
         }
     }

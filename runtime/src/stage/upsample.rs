@@ -61,6 +61,8 @@ pub(crate) struct Upsampler<A: Arithmetic> {
     residues: [Four<A, Residue>; 2],
     /// The gain from a sample to the output of its own tick.
     direct: Quantity<A, Residue>,
+    /// Rate of the ticks, Hz; 0 for none yet.
+    servo_rate_hz: f32,
     ticks: u8,
 }
 
@@ -70,13 +72,17 @@ impl<A: InnerProduct> Upsampler<A> {
         poles: [Four::ZERO; 2],
         residues: [Four::ZERO; 2],
         direct: Quantity::ZERO,
+        servo_rate_hz: 0.0,
         ticks: 1,
     };
 
-    /// The low-pass for models whose samples last 2 to [`MAX_TICKS`] ticks.
-    pub(crate) fn new(ticks: u8) -> Self {
+    /// The low-pass for models whose samples last 2 to [`MAX_TICKS`] ticks of a rate; none for 1.
+    pub(crate) fn new(ticks: u8, servo_rate_hz: f32) -> Self {
         if ticks < 2 {
-            return Self::NONE;
+            return Self {
+                servo_rate_hz,
+                ..Self::NONE
+            };
         }
         let angle = EDGE / f32::from(ticks);
         let c = cos_pi(angle) / sin_pi(angle);
@@ -99,8 +105,15 @@ impl<A: InnerProduct> Upsampler<A> {
             poles: poles.map(Four::of),
             residues: residues.map(Four::of),
             direct: Quantity::of(direct),
+            servo_rate_hz,
             ticks,
         }
+    }
+
+    /// Rate of the ticks, Hz; 0 for none yet.
+    #[inline(always)]
+    pub(crate) const fn servo_rate_hz(&self) -> f32 {
+        self.servo_rate_hz
     }
 
     /// Ticks that a sample of the models lasts.
@@ -227,7 +240,7 @@ mod tests {
     #[test]
     fn the_band_is_kept_and_images_are_taken_out() {
         for ticks in 2..=MAX_TICKS {
-            let filter = Upsampler::<Float>::new(ticks);
+            let filter = Upsampler::<Float>::new(ticks, 1000.0 * f32::from(ticks));
             let gains = |from: usize, to: usize| {
                 let gain = |n: usize| db(response(&filter, n as f64 * 1e-3).0);
                 (from..=to).map(gain)
@@ -249,7 +262,7 @@ mod tests {
             (5, [1.20, 1.23, 1.58, 3.21]),
             (10, [1.22, 1.25, 1.59, 3.16]),
         ] {
-            let filter = Upsampler::<Float>::new(ticks);
+            let filter = Upsampler::<Float>::new(ticks, 1000.0 * f32::from(ticks));
             for (frequency, stated) in [0.05, 0.1, 0.25, 0.4].into_iter().zip(stated_ms) {
                 let (_, delay) = response(&filter, frequency);
                 assert!(
@@ -265,7 +278,7 @@ mod tests {
     #[test]
     fn a_tone_comes_out_at_its_level() {
         for ticks in [2, 5, 10] {
-            let filter = Upsampler::<Float>::new(ticks);
+            let filter = Upsampler::<Float>::new(ticks, 1000.0 * f32::from(ticks));
             for frequency in [0.01, 0.1, 0.25, 0.44, 0.47] {
                 let mut held = Held::SILENT;
                 let (mut power, count) = (0.0, 4000);

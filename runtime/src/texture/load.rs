@@ -69,7 +69,7 @@ impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
     /// Loads all but the taps.
     fn load_untapped(&mut self, asset: &Asset<'_>, servo_rate_hz: f32) -> Result<(), LoadError> {
         let ticks = Self::check(asset, servo_rate_hz)?;
-        self.servo_rate_hz = servo_rate_hz;
+        self.upsampler = Upsampler::new(ticks, servo_rate_hz);
         self.prepare(asset, ticks);
         Ok(())
     }
@@ -97,12 +97,12 @@ impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
         });
         self.coupling = Coupling::new(asset.coupling(), asset.friction().mu());
         self.law.load(asset.friction().law());
-        self.contact.load(asset.contact(), self.servo_rate_hz);
+        self.contact
+            .load(asset.contact(), self.upsampler.servo_rate_hz());
         self.gives_way = asset.contact().is_some();
         self.recursion = Recursion::new(grid.ar_order(), grid.ma_order());
         self.load_models(grid);
         self.plan = Plan::new(&self.models, ticks);
-        self.upsampler = Upsampler::new(ticks);
     }
 
     #[inline(never)]

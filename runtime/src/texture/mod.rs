@@ -49,7 +49,6 @@ pub struct Texture<S: Capacity = HostCapacities, A: WeightSearch = Float> {
     id: u32,
     recursion: Recursion,
     upsampler: Upsampler<A>,
-    servo_rate_hz: f32,
 }
 
 /// A slot for any texture. It takes 33 KiB, which is too much for most stacks: make it static, or
@@ -77,7 +76,6 @@ impl<S: Capacity, A: WeightSearch + RowMixture + SectionProduct + InnerProduct> 
         id: 0,
         recursion: Recursion::new(0, 0),
         upsampler: Upsampler::NONE,
-        servo_rate_hz: 0.0,
     };
 
     /// An empty slot: no wall, no sound. As a value it may pass through the stack;
@@ -108,13 +106,12 @@ impl<S: Capacity, A: WeightSearch + RowMixture + SectionProduct + InnerProduct> 
         self.id = 0;
         self.recursion = Recursion::new(0, 0);
         self.upsampler = Upsampler::NONE;
-        self.servo_rate_hz = 0.0;
     }
 
     /// Rate that the slot was loaded for, Hz; 0 for an empty slot.
     #[must_use]
     pub const fn servo_rate_hz(&self) -> f32 {
-        self.servo_rate_hz
+        self.upsampler.servo_rate_hz()
     }
 
     /// Ticks that a sample of the models lasts, 1 to 20: the servo rate over theirs.
