@@ -173,14 +173,18 @@ impl<A: RenderArithmetic> Renderer<A> {
             crossing.coupling.wall = texture.coupling.wall;
         }
         let coupling = crossing.coupling;
-        self.lower(&coupling, texture.contact_law(), state);
+        let begins = !state.vibration.is_on(texture.id());
+        // A wall follows in every tick, and one that gives way never.
+        if texture.contact_law().is_none() || begins || state.vibration.takes_query() {
+            self.lower(&coupling, texture.contact_law(), state);
+        }
         let touched = Touched {
             texture,
             field,
             coupling: &coupling,
         };
         let following = || self.following.of(&texture.plan);
-        if !state.vibration.is_on(texture.id()) {
+        if begins {
             state.contact = ContactState::UNTOUCHED;
             crossing.forces.begin();
             crossing.factor.begin();

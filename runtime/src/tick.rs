@@ -81,6 +81,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         output
     }
 
+    /// [`State::change_texture`], and what the device bears of the new one.
     #[cold]
     #[inline(never)]
     fn change_texture<S: Capacity>(&self, texture: &Texture<S, A>, state: &mut State<A>) {

@@ -270,7 +270,11 @@ impl<A: Pushing + Magnitudes> ContactLaw<A> {
         let deeper = elastic - before;
 
         if self.relaxing > Quantity::ZERO {
-            self.relax(state, lowered.relaxing, deeper, tip.elapsed_ticks);
+            if tip.elapsed_ticks > 1 {
+                self.relax_late(state, lowered.relaxing, deeper, tip.elapsed_ticks);
+            } else {
+                self.relax(state, lowered.relaxing, deeper);
+            }
         }
         if tip.depth <= zero {
             return self.recover(period, state, tip);
@@ -311,26 +315,10 @@ impl<A: Pushing + Magnitudes> ContactLaw<A> {
         }
     }
 
-    /// The Maxwell branch follows the elastic depth, period by period.
-    #[inline(always)]
-    fn relax(
-        &self,
-        state: &mut ContactState<A>,
-        stiffness: Quantity<A, NewtonPerMetre>,
-        deeper: Quantity<A, Metre>,
-        elapsed_ticks: u32,
-    ) {
-        if elapsed_ticks > 1 {
-            self.relax_periods(state, stiffness, deeper, elapsed_ticks);
-        } else {
-            self.relax_a_period(state, stiffness, deeper);
-        }
-    }
-
-    /// [`relax`](Self::relax) over two or three periods, steadily.
+    /// [`relax`](Self::relax) over two or three periods of a steady motion.
     #[cold]
     #[inline(never)]
-    fn relax_periods(
+    fn relax_late(
         &self,
         state: &mut ContactState<A>,
         stiffness: Quantity<A, NewtonPerMetre>,
@@ -344,12 +332,13 @@ impl<A: Pushing + Magnitudes> ContactLaw<A> {
         };
         let deeper = Quantity::<A, Fraction>::of(part) * deeper;
         for _ in 0..ticks {
-            self.relax_a_period(state, stiffness, deeper);
+            self.relax(state, stiffness, deeper);
         }
     }
 
+    /// The Maxwell branch follows the elastic depth for a period.
     #[inline(always)]
-    fn relax_a_period(
+    fn relax(
         &self,
         state: &mut ContactState<A>,
         stiffness: Quantity<A, NewtonPerMetre>,

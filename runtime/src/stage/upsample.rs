@@ -61,7 +61,7 @@ pub(crate) struct Upsampler<A: Arithmetic> {
     residues: [Four<A, Residue>; 2],
     /// The gain from a sample to the output of its own tick.
     direct: Quantity<A, Residue>,
-    /// Rate of the ticks, Hz; 0 for none yet.
+    /// Rate of the ticks, Hz; 0 for none yet. Here it takes no room: four lanes are aligned.
     servo_rate_hz: f32,
     ticks: u8,
 }

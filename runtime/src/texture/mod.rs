@@ -44,7 +44,7 @@ pub struct Texture<S: Capacity = HostCapacities, A: WeightSearch = Float> {
     pub(crate) coupling: Coupling<A>,
     pub(crate) law: FrictionLaw,
     contact: ContactLaw<A>,
-    /// True if there is a contact law.
+    /// True if there is a contact law; an option would take four bytes.
     gives_way: bool,
     id: u32,
     recursion: Recursion,
