@@ -3,6 +3,7 @@
 //! Callgrind counts the instructions. It runs this program with a single kernel for n and for 2n ticks of a
 //! [`Workload`]; the difference divided by n is the cost per tick, without start-up.
 
+use super::contact;
 use asperity::{
     emit::lower,
     model::{ModelGrid, Numerator, TextureModel},
@@ -32,12 +33,8 @@ pub fn orders(grid: &ModelGrid) -> Orders {
 }
 
 /// The orders as arguments of the hidden command.
-fn arguments(orders: Orders) -> [String; 3] {
-    [
-        orders.poles.to_string(),
-        orders.zeros.to_string(),
-        u8::from(orders.nyquist).to_string(),
-    ]
+fn numbers(orders: Orders) -> [usize; 3] {
+    [orders.poles, orders.zeros, usize::from(orders.nyquist)]
 }
 
 /// Why instructions could not be counted.
@@ -76,24 +73,25 @@ impl Counter {
         if let Some(&known) = lock().get(&(index, orders)) {
             return Ok(Some(known));
         }
-        let (once, twice) = (
-            counted(index, orders, TICKS)?,
-            counted(index, orders, 2 * TICKS)?,
-        );
-        let a_tick = twice.saturating_sub(once) as f64 / TICKS as f64;
+        let a_tick = per_tick(&[&[index][..], &numbers(orders)].concat())?;
         lock().insert((index, orders), a_tick);
         Ok(Some(a_tick))
     }
 }
 
-fn counted(variant: usize, orders: Orders, ticks: usize) -> Result<u64, CountError> {
+/// Instructions a tick of what the hidden command runs with these numbers.
+pub(super) fn per_tick(numbers: &[usize]) -> Result<f64, CountError> {
+    let (once, twice) = (counted(numbers, TICKS)?, counted(numbers, 2 * TICKS)?);
+    Ok(twice.saturating_sub(once) as f64 / TICKS as f64)
+}
+
+fn counted(numbers: &[usize], ticks: usize) -> Result<u64, CountError> {
     let program = env::current_exe().map_err(CountError::Missing)?;
     let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
         .arg(program)
-        .args([COMMAND, &variant.to_string()])
-        .args(arguments(orders))
-        .arg(ticks.to_string())
+        .arg(COMMAND)
+        .args(numbers.iter().chain([&ticks]).map(usize::to_string))
         .output()
         .map_err(CountError::Missing)?;
     let log = String::from_utf8_lossy(&output.stderr);
@@ -107,13 +105,15 @@ fn counted(variant: usize, orders: Orders, ticks: usize) -> Result<u64, CountErr
 }
 
 /// The hidden command. Its arguments are variant, poles, zeros, whether the numerator is
-/// 1 + z⁻¹, and ticks.
+/// 1 + z⁻¹, and ticks; or material and design of a contact law, and ticks.
 ///
 /// Returns the last sample, or `None` for arguments that name no kernel.
 #[must_use]
 pub fn run(arguments: &[usize]) -> Option<f64> {
-    let &[variant, poles, zeros, nyquist, ticks] = arguments else {
-        return None;
+    let (variant, poles, zeros, nyquist, ticks) = match *arguments {
+        [variant, poles, zeros, nyquist, ticks] => (variant, poles, zeros, nyquist, ticks),
+        [material, design, ticks] => return contact::run([material, design], ticks),
+        _ => return None,
     };
     let orders = Orders {
         poles,

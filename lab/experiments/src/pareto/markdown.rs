@@ -1,5 +1,6 @@
 //! The comparison as tables of the documentation.
 
+use super::contact::ContactSummary;
 use super::cortex_m::CortexM;
 use super::measure::Results;
 use super::reduced_material::ReducedMaterial;
@@ -9,7 +10,7 @@ use asperity::passes::reduce::Change;
 use asperity_kernels::design::Factor;
 use std::fmt::Write as _;
 
-/// Markdown of every table: designs by factor, what `auto` keeps.
+/// Markdown of every table: designs by factor, contact laws, what `auto` keeps.
 #[must_use]
 pub fn tables(results: &Results, cortex_m: &CortexM) -> String {
     let mut text = String::new();
@@ -31,6 +32,7 @@ pub fn tables(results: &Results, cortex_m: &CortexM) -> String {
             );
         }
     }
+    contact(&mut text, &results.contact);
     kept(&mut text, results);
     text
 }
@@ -87,6 +89,36 @@ fn designs<'a>(
             number(of(row.moving_level_db, |s| s.p95), 2),
             number(of(alternating, |s| s.p95), 1),
             number(of(alternating, |s| s.max), 1),
+        );
+    }
+    text.push('\n');
+}
+
+fn contact(text: &mut String, designs: &[ContactSummary]) {
+    text.push_str(
+        "### contact law\n\n| design | materials | instr. | of the whole law | away from the surface, %: median / p95 / max | along it, %: median / p95 / max |\n|---|---:|---:|---:|---:|---:|\n",
+    );
+    for design in designs {
+        let percent = |spread: Option<Spread>| {
+            spread.map_or("–".into(), |s| {
+                format!(
+                    "{:.1} / {:.1} / {:.1}",
+                    100.0 * s.median,
+                    100.0 * s.p95,
+                    100.0 * s.max
+                )
+            })
+        };
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {} | {} | {} |",
+            design.name,
+            design.materials,
+            number(design.instructions, 0),
+            number(design.whole, 0),
+            percent(design.press),
+            percent(design.drag)
         );
     }
     text.push('\n');

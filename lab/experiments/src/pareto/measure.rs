@@ -2,6 +2,7 @@
 
 use super::{
     accuracy::{Errors, Truth},
+    contact::{self, ContactSummary},
     cost::{self, CountError, Counter},
     reduced_material::ReducedMaterial,
     summary::{Measurement, VariantSummary, summarised},
@@ -36,6 +37,8 @@ pub struct Results {
     pub summaries: Vec<VariantSummary>,
     /// Each material as `auto` reduces it.
     pub kept: Vec<ReducedMaterial>,
+    /// Contact laws with a part left out.
+    pub contact: Vec<ContactSummary>,
     /// The orders that instructions were counted at.
     pub common: Orders,
     /// Why instructions were not counted although they were wanted.
@@ -45,12 +48,12 @@ pub struct Results {
 /// Returns the number of times that [`measure`] calls `done`.
 #[must_use]
 pub fn steps(materials: usize) -> usize {
-    materials + variants().len()
+    materials + variants().len() + 1
 }
 
 /// Measures every variant on every texture.
 ///
-/// `done` is called once for each material and once for each variant, from any thread.
+/// `done` is called once for each material, for each variant and for all contact laws, from any thread.
 #[must_use]
 pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + Sync) -> Results {
     let variants = variants();
@@ -93,7 +96,16 @@ pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + S
             kept
         })
         .collect();
+    let contact = contact::measure(|numbers| {
+        wanted?;
+        let counted = cost::per_tick(numbers);
+        counted
+            .map_err(|error| failed.get_or_insert(error.to_string()))
+            .ok()
+    });
+    done();
     Results {
+        contact,
         materials: textures.iter().map(|t| t.name.clone()).collect(),
         summaries,
         kept,

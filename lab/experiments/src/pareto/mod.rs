@@ -8,6 +8,7 @@
 //! | [`kernel`] | the kernels on the compiler's models |
 //! | [`material`] | the textures that are measured |
 //! | [`accuracy`], [`difference`] | how far a design is from the f64 oracle, at rest and moving |
+//! | [`contact`] | contact laws with a part left out, and a linear spring in their place |
 //! | [`cost`], [`cortex_m`] | executed instructions, bytes |
 //! | [`reduced_material`] | what `--fidelity auto` keeps of a material |
 //! | [`mod@measure`], [`summary`], [`front`] | every design on every material, and which designs no other beats |
@@ -17,6 +18,7 @@
 
 pub mod accuracy;
 pub mod chart;
+pub mod contact;
 pub mod cortex_m;
 pub mod cost;
 pub mod difference;
