@@ -4,14 +4,43 @@ use super::texture;
 use asperity::emit::lower::lower;
 use asperity_formats::Asset;
 use asperity_runtime::{Config, HostTexture, Output, Renderer, Sample, State};
+use std::{
+    collections::HashMap,
+    sync::{Arc, LazyLock, Mutex},
+};
 
 /// A tick of the servo loop, s.
 const TICK_S: f64 = 0.001;
 
+/// Silent textures of prompts, so that only the contact is measured.
+static SLOTS: LazyLock<Mutex<HashMap<String, Arc<HostTexture>>>> = LazyLock::new(Mutex::default);
+
+fn slot(prompt: &str) -> Arc<HostTexture> {
+    if let Some(slot) = SLOTS.lock().unwrap().get(prompt) {
+        return slot.clone();
+    }
+    let mut texture = texture(prompt);
+    texture.taps.traces.clear();
+    for vertex in &mut texture.grid.vertices {
+        vertex.sigma_m_s2 = 0.0;
+    }
+    let bytes = lower(&texture, None).unwrap().bytes;
+    let asset = Asset::parse(&bytes).unwrap();
+    assert_eq!(asset.version() >= 3, texture.contact.is_some(), "{prompt}");
+    let mut slot = HostTexture::new();
+    slot.load(&asset, Config::default().servo_rate_hz).unwrap();
+    let slot = Arc::new(slot);
+    SLOTS
+        .lock()
+        .unwrap()
+        .insert(prompt.to_owned(), slot.clone());
+    slot
+}
+
 /// A hand on a surface.
 struct Hand {
     renderer: Renderer,
-    slot: Box<HostTexture>,
+    slot: Arc<HostTexture>,
     state: State,
     x_m: f64,
     z_m: f64,
@@ -19,21 +48,9 @@ struct Hand {
 
 impl Hand {
     fn on(prompt: &str) -> Self {
-        let mut texture = texture(prompt);
-        // A silent one: only the contact is measured.
-        texture.taps.traces.clear();
-        for vertex in &mut texture.grid.vertices {
-            vertex.sigma_m_s2 = 0.0;
-        }
-        let bytes = lower(&texture, None).unwrap().bytes;
-        let asset = Asset::parse(&bytes).unwrap();
-        assert_eq!(asset.version() >= 3, texture.contact.is_some(), "{prompt}");
-        let config = Config::default();
-        let mut slot = Box::new(HostTexture::new());
-        slot.load(&asset, config.servo_rate_hz).unwrap();
         Self {
-            renderer: Renderer::new(&config).unwrap(),
-            slot,
+            renderer: Renderer::new(&Config::default()).unwrap(),
+            slot: slot(prompt),
             state: State::new(1),
             x_m: 0.0,
             z_m: 0.005,
@@ -73,13 +90,40 @@ impl Hand {
     }
 }
 
+/// A measure by its name.
+pub(super) fn measure(name: &str) -> Option<fn(&str) -> f64> {
+    Some(match name {
+        "depth" => depth,
+        "fast_depth" => fast_depth,
+        "lost" => lost,
+        "pull" => pull,
+        "slow_drag" => slow_drag,
+        "fast_drag" => fast_drag,
+        "drag_of_speed" => drag_of_speed,
+        "print" => print,
+        "late_print" => late_print,
+        "held" => held,
+        _ => return None,
+    })
+}
+
 /// Depth under 1 N, mm.
-pub(super) fn depth(prompt: &str) -> f64 {
+fn depth(prompt: &str) -> f64 {
     Hand::on(prompt).press(1.0, 0.02).0
 }
 
+/// Load at a depth, mm, of a hand that presses slowly, N.
+pub(super) fn load(prompt: &str, depth_mm: f64) -> f64 {
+    let mut hand = Hand::on(prompt);
+    let mut load_n = 0.0;
+    while -1000.0 * hand.z_m < depth_mm {
+        load_n = f64::from(hand.go(0.0, -0.01).force_n[2]);
+    }
+    load_n
+}
+
 /// Depth under 1 N of a fast hand, mm.
-pub(super) fn fast_depth(prompt: &str) -> f64 {
+fn fast_depth(prompt: &str) -> f64 {
     Hand::on(prompt).press(1.0, 0.2).0
 }
 
@@ -99,7 +143,7 @@ pub(super) fn pull(prompt: &str) -> f64 {
 }
 
 /// Friction of a stroke 2 mm deep, N.
-pub(super) fn drag(prompt: &str, speed_m_s: f64) -> f64 {
+fn drag(prompt: &str, speed_m_s: f64) -> f64 {
     let mut hand = Hand::on(prompt);
     while hand.z_m > -0.002 {
         hand.go(0.0, -0.02);
@@ -109,10 +153,12 @@ pub(super) fn drag(prompt: &str, speed_m_s: f64) -> f64 {
     along.skip(ticks / 2).sum::<f64>() / (ticks / 2) as f64
 }
 
-pub(super) fn slow_drag(prompt: &str) -> f64 {
+/// Friction of a slow stroke, N.
+fn slow_drag(prompt: &str) -> f64 {
     drag(prompt, 0.02)
 }
 
+/// Friction of a fast stroke, N.
 pub(super) fn fast_drag(prompt: &str) -> f64 {
     drag(prompt, 0.2)
 }
@@ -123,7 +169,7 @@ pub(super) fn drag_of_speed(prompt: &str) -> f64 {
 }
 
 /// Depth of a print that 1 N left a while ago, mm.
-pub(super) fn print_after(prompt: &str, rest_s: f64) -> f64 {
+fn print_after(prompt: &str, rest_s: f64) -> f64 {
     let mut hand = Hand::on(prompt);
     hand.press(1.0, 0.02);
     hand.leave(0.05);
@@ -133,16 +179,18 @@ pub(super) fn print_after(prompt: &str, rest_s: f64) -> f64 {
     hand.press(0.03, 0.02).0 - Hand::on(prompt).press(0.03, 0.02).0
 }
 
+/// Depth of a print just left, mm.
 pub(super) fn print(prompt: &str) -> f64 {
     print_after(prompt, 0.0)
 }
 
-pub(super) fn late_print(prompt: &str) -> f64 {
+/// Depth of a print after 5 s, mm.
+fn late_print(prompt: &str) -> f64 {
     print_after(prompt, 5.0)
 }
 
 /// Part of the load that is left after half a second at one depth.
-pub(super) fn held(prompt: &str) -> f64 {
+fn held(prompt: &str) -> f64 {
     let mut hand = Hand::on(prompt);
     hand.press(1.0, 0.2);
     let last = (0..500).map(|_| hand.go(0.0, 0.0)).last().unwrap();

@@ -6,7 +6,7 @@ use asperity_texture::model::{Adhesion, ContactLaw, Drag, Imprint, Relaxation, S
 /// Part of a mixture that must give way, and part of what gives way that must have a part of a law.
 const MOST: f64 = 0.5;
 /// Weight from which a law counts alone.
-const ALONE: f64 = 0.95;
+pub(super) const ALONE: f64 = 0.95;
 /// Forces at which springs are mixed, N.
 const FORCES_N: [f64; 6] = [0.1, 0.3, 0.7, 1.3, 2.2, 4.0];
 /// Steepest slope of a spring with relaxation and adhesion, N/m: the Touch bears them together.

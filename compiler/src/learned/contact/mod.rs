@@ -1,17 +1,20 @@
-//! Contact laws from the neighbours of a latent, as friction has them, moved by the words of a prompt.
+//! Contact laws of named materials, or from the neighbours of a latent, as friction has them, moved by the words of a
+//! prompt.
 
 mod mix;
+mod names;
 mod table;
 mod words;
 
+use mix::ALONE;
 pub use mix::{Share, mixed};
 pub use table::{Material, materials};
-pub use words::worded;
 
 use super::{
     description::{Anchor, ModelDescription},
     friction,
 };
+use asperity_language::reading::Reading;
 use asperity_model::CONTACT_LAWS;
 use asperity_texture::model::{ContactLaw, FrictionAnchor, TextureModel};
 
@@ -51,6 +54,58 @@ pub fn at(z: &[f32], description: &ModelDescription) -> Option<ContactLaw> {
     mixed(&shares.iter().map(share).collect::<Vec<_>>())
 }
 
+/// The contact law of a text, and the material that it names.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Choice {
+    /// The law.
+    pub law: ContactLaw,
+    /// Whose law it is, by name; `None` for a mixture of those near a latent.
+    pub named: Option<&'static Material>,
+}
+
+impl From<ContactLaw> for Choice {
+    fn from(law: ContactLaw) -> Self {
+        Self { law, named: None }
+    }
+}
+
+/// The contact law of a text: that of the material that it names, or else that of the latent's neighbours, as its words
+/// move it. A latent at another material is surer than the last words of a longer name. `text` is what the reading names,
+/// with some of its words.
+#[must_use]
+pub fn of(
+    z: &[f32],
+    description: &ModelDescription,
+    text: &str,
+    reading: &Reading,
+) -> Option<Choice> {
+    let shares = shares(z, description);
+    let at = shares.iter().find(|(weight, _)| *weight > ALONE);
+    let other = |material: &Material| at.is_some_and(|(_, anchor)| anchor.name != material.name);
+    let named = names::named(text);
+    if named.as_ref().is_some_and(|named| !named.gives_way()) {
+        return None;
+    }
+    let sure = named.filter(|named| named.alone || !other(named.material));
+    let Some(named) = sure else {
+        let law = self::at(z, description)?;
+        let words = reading.words.iter();
+        // A name says nothing about itself.
+        let words = words.map(|word| {
+            if reading.names.contains(word) {
+                ""
+            } else {
+                word
+            }
+        });
+        return Some(words::worded(law, &words.collect::<Vec<_>>()).into());
+    };
+    Some(Choice {
+        law: words::worded(named.material.law.clone(), &named.others),
+        named: Some(named.material),
+    })
+}
+
 /// The name of the material that has the largest share at a latent.
 #[must_use]
 pub fn nearest<'a>(z: &[f32], description: &'a ModelDescription) -> Option<&'a str> {
@@ -80,14 +135,22 @@ fn slide(texture: &mut TextureModel, z: &[f32], description: &ModelDescription) 
 /// Gives a texture a law, and the wall and the friction that go with it. `friction` is the latent of its μ.
 pub fn give(
     texture: &mut TextureModel,
-    law: Option<ContactLaw>,
+    choice: Option<Choice>,
     friction: &[f32],
     description: &ModelDescription,
 ) {
-    if law.is_some() {
+    if let Some(choice) = &choice {
         slide(texture, friction, description);
+        if let Some((named, mu)) = choice.named.and_then(|named| Some((named, named.mu?))) {
+            texture.friction.mu = mu;
+            texture.friction.anchors = vec![FrictionAnchor {
+                name: named.name.clone(),
+                mu,
+                weight: 1.0,
+            }];
+        }
     }
-    set(texture, law);
+    set(texture, choice.map(|choice| choice.law));
 }
 
 /// Gives a texture a law, and the wall that goes with it.

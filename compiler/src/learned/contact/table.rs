@@ -9,8 +9,11 @@ use std::{collections::BTreeMap, sync::LazyLock};
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
-    /// Its name, as the model has it.
+    /// Its name, as the model has it; a few are known by name alone.
     pub name: String,
+    /// What else gives way like it, of which the model knows nothing.
+    #[serde(default)]
+    pub names: Vec<String>,
     /// Its contact law.
     pub law: ContactLaw,
     /// Coefficient of friction in the place of the model's, where a film carries the load.

@@ -99,19 +99,18 @@ fn effect(word: &str) -> Option<&'static Effect> {
         .or_else(|| of(&format!("{}e", stem()?)))
 }
 
-/// A law as the words beside the name of its material move it, and those before the name in it: "runny honey" is
-/// a name, and its law that of honey. What is in the name of the `nearest` material is in its law.
+/// Returns true for a word that says how something gives way, or how much so.
+pub(super) fn is_said(word: &str) -> bool {
+    let about = degree(word).is_some() || DENIALS.contains(&word) || BETWEEN.contains(&word);
+    about || effect(word).is_some()
+}
+
+/// A law as the words beside the name of its material move it.
 #[must_use]
-pub fn worded(law: ContactLaw, words: &[String], names: &[String], nearest: &str) -> ContactLaw {
+pub(super) fn worded(law: ContactLaw, words: &[&str]) -> ContactLaw {
     let mut law = law;
     for (n, word) in words.iter().enumerate() {
-        let inner = word.strip_suffix(nearest).map(str::trim_end);
-        let said = match inner {
-            Some(inner) if names.contains(word) => inner,
-            _ if names.contains(word) => continue,
-            _ => word,
-        };
-        if let Some(effect) = effect(said) {
+        if let Some(effect) = effect(word) {
             law = tidied(effect.on(law, strength(&words[..n])));
         }
     }
@@ -119,16 +118,16 @@ pub fn worded(law: ContactLaw, words: &[String], names: &[String], nearest: &str
 }
 
 /// Strength of a word after these: 1 without a degree, negative for less, 0 where it is denied.
-fn strength(before: &[String]) -> f64 {
+fn strength(before: &[&str]) -> f64 {
     let mut strength = 1.0;
-    for word in before.iter().rev().map(String::as_str) {
-        if DENIALS.contains(&word) {
+    for word in before.iter().rev() {
+        if DENIALS.contains(word) {
             return 0.0;
-        } else if ["less", "least"].contains(&word) {
+        } else if ["less", "least"].contains(word) {
             strength *= -1.0;
         } else if let Some(degree) = degree(word) {
             strength *= degree;
-        } else if !BETWEEN.contains(&word) {
+        } else if !BETWEEN.contains(word) {
             break;
         }
     }
@@ -277,7 +276,7 @@ mod tests {
     }
 
     #[test]
-    fn degrees_stress_denials_and_names_take_away() {
+    fn degrees_stress_and_denials_take_away() {
         let law = ContactLaw {
             adhesion: Some(Adhesion {
                 pull_n: 0.2,
@@ -285,27 +284,17 @@ mod tests {
             }),
             ..ContactLaw::default()
         };
-        let pull_n = |text: &str, names: &[&str]| {
-            let words: Vec<String> = text.split(' ').map(str::to_owned).collect();
-            let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
-            worded(law.clone(), &words, &names, "honey")
-                .adhesion
-                .map(|part| part.pull_n)
+        let pull_n = |text: &str| {
+            let words: Vec<&str> = text.split(' ').collect();
+            worded(law.clone(), &words).adhesion.map(|part| part.pull_n)
         };
-        assert_eq!(pull_n("sticky honey", &["honey"]), Some(0.4));
-        assert_eq!(pull_n("stickier honey", &["honey"]), Some(0.4));
-        assert_eq!(pull_n("not sticky honey", &["honey"]), Some(0.2));
-        assert_eq!(pull_n("honey not at all sticky", &["honey"]), Some(0.2));
-        assert_eq!(pull_n("less sticky honey", &["honey"]), Some(0.1));
-        assert_eq!(pull_n("sticky", &["sticky"]), Some(0.2));
-        let named = |name: &str| {
-            let names = [name.to_owned()];
-            worded(law.clone(), &names, &names, "honey").adhesion
-        };
-        assert_eq!(named("sticky honey").map(|part| part.pull_n), Some(0.4));
-        assert_eq!(named("sticky tape"), law.adhesion);
-        assert_eq!(pull_n("dry", &[]), None);
-        assert!(pull_n("very sticky honey", &[]) > pull_n("sticky honey", &[]));
-        assert!(pull_n("slightly sticky honey", &[]) < pull_n("sticky honey", &[]));
+        assert_eq!(pull_n("sticky honey"), Some(0.4));
+        assert_eq!(pull_n("stickier honey"), Some(0.4));
+        assert_eq!(pull_n("not sticky honey"), Some(0.2));
+        assert_eq!(pull_n("honey not at all sticky"), Some(0.2));
+        assert_eq!(pull_n("less sticky honey"), Some(0.1));
+        assert_eq!(pull_n("dry"), None);
+        assert!(pull_n("very sticky honey") > pull_n("sticky honey"));
+        assert!(pull_n("slightly sticky honey") < pull_n("sticky honey"));
     }
 }

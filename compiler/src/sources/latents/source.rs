@@ -145,14 +145,17 @@ impl FromLatents {
         &self,
         model: &LearnedModel,
         prompt_compiler: Option<&PromptCompiler>,
-    ) -> Option<ContactLaw> {
-        if let Some(own) = self.own_contact() {
-            return own.law.clone();
-        }
+    ) -> Option<contact::Choice> {
         let prompt = prompt_compiler.zip(self.provenance.prompt.as_deref());
         let reading = prompt.map(|(compiler, prompt)| compiler.read(prompt));
         let reading = reading.unwrap_or_default();
-        contact_law(&self.latents.tap, model.description(), &reading)
+        let choice = contact_law(&self.latents.tap, model.description(), &reading);
+        let Some(own) = self.own_contact() else {
+            return choice;
+        };
+        let named = choice.and_then(|choice| choice.named);
+        let law = own.law.clone()?;
+        Some(contact::Choice { law, named })
     }
 
     fn ingredient(&self) -> Ingredient {
@@ -266,7 +269,12 @@ pub fn decode(
     let mut texture = plain(model, latents, name, provenance)?;
     let description = model.description();
     let law = contact::at(&latents.tap, description);
-    contact::give(&mut texture, law, &latents.friction, description);
+    contact::give(
+        &mut texture,
+        law.map(Into::into),
+        &latents.friction,
+        description,
+    );
     Ok(texture)
 }
 

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::learned::{Decoded, Latent, contact, description::ModelDescription, texture};
 use asperity_texture::model::{
-    ContactLaw, Provenance, TextureModel,
+    Provenance, TextureModel,
     attributes::{self, Attributes},
     shift::{self, Scales, Shift, adjust},
 };
@@ -126,15 +126,14 @@ impl PromptCompiler {
         &self,
         projection: &Projection,
         z: &Latent,
-    ) -> Result<Option<ContactLaw>, PromptError> {
-        let description = self.model().description();
+    ) -> Result<Option<contact::Choice>, PromptError> {
         let reading = &projection.reading;
         let z = match &reading.phrase {
-            // The vector of "sticky honey" lies towards tape, and what its words move is moved below.
+            // The vector of "sticky honey" lies towards tape, and what its words move is moved by them.
             Phrase::Changed { base, .. } | Phrase::Graded { base, .. } => self.thing(base)?.z,
             _ => *z,
         };
-        Ok(contact_law(&z, description, reading))
+        Ok(contact_law(&z, self.model().description(), reading))
     }
 
     /// The material that a text names; the text may be a phrase itself. Prompts of a library name few of them.
@@ -193,16 +192,18 @@ impl PromptCompiler {
     }
 }
 
-/// The contact law at a latent, as the words of a prompt move it.
+/// The contact law at a latent, as the words of a prompt name and move it.
 pub(crate) fn contact_law(
     z: &Latent,
     description: &ModelDescription,
     reading: &Reading,
-) -> Option<ContactLaw> {
-    let law = contact::at(z, description)?;
-    let nearest = contact::nearest(z, description).unwrap_or_default();
-    let (words, names) = (&reading.words, &reading.names);
-    Some(contact::worded(law, words, names, nearest))
+) -> Option<contact::Choice> {
+    let text = match &reading.phrase {
+        Phrase::Plain | Phrase::Changed { .. } | Phrase::Graded { .. } => reading.words.join(" "),
+        // What is made of, covered or between things is none of them.
+        _ => String::new(),
+    };
+    contact::of(z, description, &text, reading)
 }
 
 fn kept(
