@@ -160,6 +160,24 @@ async function selfMoving(visit) {
   assert((await visit.take()).every(({ depth_mm }) => depth_mm <= 0), "and is lifted when it is stopped");
 }
 
+/** What gives way is followed down until it bears the force; the touch that starts the sound is felt. */
+async function givesWay(browser) {
+  const visit = await Visit.begin(browser, address);
+  const { page } = visit;
+  await visit.compile("memory foam");
+  const { x, y, width, height } = await page.locator("#stage").boundingBox();
+  const before = await page.screenshot({ clip: { x, y, width, height } });
+  await page.mouse.move(x + width / 2, y + height / 2);
+  await page.mouse.down();
+  await page.waitForTimeout(4000);
+  const { depth_mm, normal_force_n } = (await visit.take()).at(-1);
+  assert(depth_mm > 10 && near(normal_force_n, SLIDER_N, 0.05),
+    `foam gives way by ${depth_mm.toFixed(1)} mm under ${normal_force_n.toFixed(2)} N`);
+  assert(!before.equals(await page.screenshot({ clip: { x, y, width, height } })), "and is seen to");
+  await page.mouse.up();
+  await visit.end();
+}
+
 async function fingers(visit) {
   const { page } = visit;
   const before = await page.getAttribute("#scale", "data-text");
@@ -313,6 +331,7 @@ try {
     await other.end();
   }
   await devices(browser);
+  await givesWay(browser);
   await failures(browser);
   console.log(`${count} assertions in ${((Date.now() - began) / 1000).toFixed(0)} s`);
 } finally {

@@ -94,7 +94,12 @@ export function startHandPanel({ surface, sound, state }) {
   });
   source.textContent = texts.hand.from_slider;
 
-  sound.on("ticks", (ticks) => readout.show(meansOf(ticks)));
+  let gives_way = false;
+  sound.on("ticks", (ticks) => {
+    const means = meansOf(ticks);
+    readout.show(means);
+    surface.dent(hand.last, gives_way && means ? means.depth : 0);
+  });
   setInterval(() => {
     if (sound.state === "on" && state.get("texture")) return;
     readout.show(hand.last && { speed: hand.speed_mm_s(now_s()), force: hand.last.force_n });
@@ -105,6 +110,7 @@ export function startHandPanel({ surface, sound, state }) {
     button.disabled = false;
     // Until the renderer says its own.
     hand.stiffness_n_m = texture.inspect.wall.stiffness_n_m;
+    gives_way = Boolean(texture.inspect.contact);
   });
   return hand;
 }

@@ -12,9 +12,11 @@ const SPEED_S = 0.08;
 
 /** Emits "move" after every change. */
 export class Hand extends Events {
-  stiffness_n_m = USUAL_N_M;
+  #stiffness_n_m = USUAL_N_M;
   #stroke = 0;
   #owner = null;
+  /** False for an owner that the renderer moves. */
+  #moves = false;
   #recent = [];
   #post;
 
@@ -33,10 +35,18 @@ export class Hand extends Events {
     return this.#owner;
   }
 
+  /** Stiffness of the texture, N/m. A hand that is pressing goes on with its force. */
+  set stiffness_n_m(stiffness_n_m) {
+    const pressing = this.#owner !== null && this.#moves && stiffness_n_m !== this.#stiffness_n_m;
+    this.#stiffness_n_m = stiffness_n_m;
+    if (pressing) this.move(this.#owner, [{ ...this.last, t_s: now_s() }]);
+  }
+
   /** Puts the hand down at a sample; another owner loses it. */
   press(owner, sample) {
     if (this.#owner !== null && this.#owner !== owner) this.lift(this.#owner, sample.t_s);
     this.#owner = owner;
+    this.#moves = true;
     this.#stroke++;
     this.#recent = [];
     this.move(owner, [sample]);
@@ -47,7 +57,7 @@ export class Hand extends Events {
     if (owner !== this.#owner || samples.length === 0) return;
     const events = new Float64Array(5 * samples.length);
     samples.forEach(({ t_s, x_mm, y_mm, force_n }, n) => {
-      events.set([t_s, x_mm, y_mm, (-1000 * force_n) / this.stiffness_n_m, this.#stroke], 5 * n);
+      events.set([t_s, x_mm, y_mm, (-1000 * force_n) / this.#stiffness_n_m, this.#stroke], 5 * n);
     });
     this.#post(events);
     this.#keep(samples);
@@ -65,6 +75,7 @@ export class Hand extends Events {
     if (this.#owner !== null && this.#owner !== owner) return;
     const touched = this.#owner !== null;
     this.#owner = sample && owner;
+    this.#moves = false;
     if (!sample || !touched) this.#recent = [];
     if (sample) this.#keep([sample]);
     else if (touched) this.emit("move");

@@ -13,13 +13,22 @@ uniform sampler2D picture, normals;
 uniform vec2 size_px, centre_mm;
 uniform float mm_px, tile_mm, reach_mm;
 uniform vec3 lamp_mm;
+// Where the surface gives way under the hand, and how deep, mm.
+uniform vec3 dent_mm;
+const float DENT_MM = 9.0, EYE_MM = 40.0;
 out vec4 colour;
 void main() {
   vec2 at_mm = centre_mm + (gl_FragCoord.xy - 0.5 * size_px) * mm_px;
+  // A hollow: z = −d·exp(−r²/R²). What is deeper looks smaller, and less light reaches it.
+  vec2 from_dent = at_mm - dent_mm.xy;
+  float hollow = dent_mm.z * exp(-dot(from_dent, from_dent) / (DENT_MM * DENT_MM));
+  vec2 slope = 2.0 * hollow / (DENT_MM * DENT_MM) * from_dent;
+  vec2 seen_mm = dent_mm.xy + from_dent * (1.0 + hollow / EYE_MM);
   // Row 0 of a picture is its top, and normals have green up.
-  vec2 at = vec2(at_mm.x, -at_mm.y) / tile_mm;
-  vec3 base = pow(texture(picture, at).rgb, vec3(2.2));
+  vec2 at = vec2(seen_mm.x, -seen_mm.y) / tile_mm;
+  vec3 base = pow(texture(picture, at).rgb, vec3(2.2)) / (1.0 + 0.15 * hollow);
   vec3 normal = normalize(texture(normals, at).xyz * 2.0 - 1.0);
+  normal = normalize(normal - vec3(slope * normal.z, 0.0));
   vec3 way = lamp_mm - vec3(at_mm, 0.0);
   float falloff = 1.0 / (1.0 + dot(way.xy, way.xy) / (reach_mm * reach_mm));
   vec3 to_lamp = normalize(way);
@@ -32,7 +41,8 @@ void main() {
   colour = vec4(pow(min(light, vec3(1.0)), vec3(1.0 / 2.2)), 1.0);
 }`;
 
-const UNIFORMS = ["picture", "normals", "size_px", "centre_mm", "mm_px", "tile_mm", "reach_mm", "lamp_mm"];
+const UNIFORMS = ["picture", "normals", "size_px", "centre_mm", "mm_px", "tile_mm", "reach_mm", "lamp_mm",
+  "dent_mm"];
 
 export class Lit {
   #gl;
@@ -78,8 +88,8 @@ export class Lit {
     this.#width_mm = width_mm;
   }
 
-  /** `lamp_px`: where the lamp hangs over the stage. */
-  draw(view, lamp_px) {
+  /** `lamp_px`: where the lamp hangs over the stage; `dent_mm`: a hollow's place and depth. */
+  draw(view, lamp_px, dent_mm) {
     const gl = this.#gl;
     const { width, height } = gl.canvas;
     const [shown_mm, pixel_mm] = [Math.min(view.width_px, view.height_px) / view.px_mm, view.width_px / width / view.px_mm];
@@ -91,6 +101,7 @@ export class Lit {
     // The lamp looks the same at every zoom.
     gl.uniform1f(this.#at.reach_mm, 0.75 * shown_mm);
     gl.uniform3f(this.#at.lamp_mm, ...view.toMm(lamp_px), 0.4 * shown_mm);
+    gl.uniform3f(this.#at.dent_mm, ...dent_mm);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 }

@@ -4,7 +4,7 @@ import { element, find } from "./dom.js";
 import { COLUMN, WIDTH } from "./plots/ring.js";
 import { texts } from "./texts.js";
 
-const SHOWN = ["speed", "force", "friction", "vibration"];
+const SHOWN = ["speed", "force", "depth", "friction", "vibration"];
 const FLOOR_DB = -60;
 /** The peak that is shown falls by so much a second, dB. */
 const FALL_DB_S = 24;
@@ -14,19 +14,20 @@ const LAMP_MS = 400;
 export function meansOf({ columns }) {
   const ticks = columns.length / WIDTH;
   const column = (name, n) => columns[n * WIDTH + COLUMN[name]];
-  const sums = { speed: 0, force: 0, friction: 0, vibration: 0 };
+  const sums = { speed: 0, force: 0, depth: 0, friction: 0, vibration: 0 };
   let touching = 0;
   for (let n = 0; n < ticks; n++) {
     if (column("depth_mm", n) <= 0) continue;
     touching++;
     sums.speed += column("speed_mm_s", n);
     sums.force += column("normal_force_n", n);
+    sums.depth += column("depth_mm", n);
     sums.friction += Math.abs(column("friction_n", n));
     sums.vibration += column("vib_m_s2", n) ** 2;
   }
   if (touching === 0) return null;
-  return { speed: sums.speed / touching, force: sums.force / touching, friction: sums.friction / touching,
-    vibration: Math.sqrt(sums.vibration / touching) };
+  return { speed: sums.speed / touching, force: sums.force / touching, depth: sums.depth / touching,
+    friction: sums.friction / touching, vibration: Math.sqrt(sums.vibration / touching) };
 }
 
 export class Readout {

@@ -44,6 +44,8 @@ export class Sound extends Events {
   /** What this texture is turned down by so that others are as loud, dB. */
   #trim_db = 0;
   #path = null;
+  /** The last events of the hand. */
+  #touch = null;
   #asset = null;
   #loaded = false;
   #file;
@@ -124,9 +126,10 @@ export class Sound extends Events {
     if (this.chain) this.#send();
   }
 
-  /** Events of the hand; nobody hears them while the sound is off. */
+  /** Events of the hand; nobody hears them while the sound is off. The touch that starts it is felt when it is on. */
   hand(events) {
     if (this.state === "on") this.#post({ type: "hand", events });
+    this.#touch = events;
   }
 
   /** The path of the hand that moves by itself (`path.js`), as soon as the sound is on; null lifts it. */
@@ -223,6 +226,7 @@ export class Sound extends Events {
     this.#turn(1);
     this.#enter("on");
     if (this.#path) this.follow(this.#path);
+    else if (this.#touch) this.hand(this.#touch);
   }
 
   /** Gives up the context; the next start builds another. */

@@ -30,6 +30,8 @@ export class Surface extends Events {
   /** Picture, normals and width of the texture; `null` before the first. */
   #shown = null;
   #lamp_px = null;
+  /** Where the surface gives way, and how deep, mm. */
+  #dent_mm = [0, 0, 0];
   #scheduled = false;
   #drawn_ms = 0;
   #slow = 0;
@@ -97,6 +99,14 @@ export class Surface extends Events {
     if (sample === null) return;
     const [x, y] = this.view.toPx([sample.x_mm, sample.y_mm]);
     this.#contact.style.transform = `translate(${x}px, ${y}px) scale(${0.6 + 0.4 * sample.force_n})`;
+  }
+
+  /** Shows how deep the surface gives way under the hand, mm. */
+  dent(sample, depth_mm) {
+    const [x_mm, y_mm] = sample ? [sample.x_mm, sample.y_mm] : this.#dent_mm;
+    if (depth_mm === 0 && this.#dent_mm[2] === 0) return;
+    this.#dent_mm = [x_mm, y_mm, depth_mm];
+    this.#draw();
   }
 
   /** Outlines the path of the hand that moves by itself, in mm, or takes it away. */
@@ -167,6 +177,6 @@ export class Surface extends Events {
     const sizes = { width: Math.max(Math.round(width_px * pixels), 1), height: Math.max(Math.round(height_px * pixels), 1) };
     // Setting a size clears the canvas, the same one too.
     for (const [name, size] of Object.entries(sizes)) if (this.#canvas[name] !== size) this.#canvas[name] = size;
-    this.#layer.draw(this.view, this.#lamp_px ?? [REST[0] * width_px, REST[1] * height_px]);
+    this.#layer.draw(this.view, this.#lamp_px ?? [REST[0] * width_px, REST[1] * height_px], this.#dent_mm);
   }
 }

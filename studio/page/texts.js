@@ -91,11 +91,12 @@ export const texts = {
   },
 
   readout: {
-    speed: "Speed", force: "Force", friction: "Friction", vibration: "Vibration",
-    speed_unit: "mm/s", force_unit: "N", friction_unit: "N", vibration_unit: "m/s² RMS",
+    speed: "Speed", force: "Force", depth: "Depth", friction: "Friction", vibration: "Vibration",
+    speed_unit: "mm/s", force_unit: "N", depth_unit: "mm", friction_unit: "N", vibration_unit: "m/s² RMS",
     none: "–",
     speed_text: (value) => number(value, 0),
     force_text: (value) => number(value, 2),
+    depth_text: (value) => number(value, 1),
     vibration_text: (value) => number(value, 2),
   },
 

@@ -15,7 +15,7 @@
 //   { type: "swap", asset, id? }         a cross-fade to another texture; answered when it begins
 //   { type: "hand", events }             Float64Array, five numbers an event: time, s, on any clock
 //                                        of the page; x, y, z, mm; stroke. z < 0 presses with
-//                                        stiffness_n_m · (−z / 1000) N. Another number of the stroke
+//                                        stiffness_n_m · (−z / 1000) N; what gives way is followed down. Another number of the stroke
 //                                        means that the pointer was put down elsewhere.
 //   { type: "path", path, t_s }          a hand that moves by itself (`path.js`) from the page's time t_s on; null lifts
 //                                        it, and events of the hand take its place

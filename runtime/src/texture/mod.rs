@@ -181,6 +181,12 @@ impl<S: Capacity, A: WeightSearch + RowMixture + SectionProduct + InnerProduct> 
         self.id
     }
 
+    /// Returns true if a contact law takes the wall's place.
+    #[must_use]
+    pub const fn gives_way(&self) -> bool {
+        self.gives_way
+    }
+
     /// The contact law, if there is one.
     #[inline(always)]
     pub(crate) const fn contact_law(&self) -> Option<&ContactLaw<A>> {

@@ -3,6 +3,7 @@
 use crate::{
     clock::Clock,
     hand::{Hand, Pointer, RATE_HZ},
+    press::{Press, Under},
     session::Session,
     status::Status,
     upsample::{FACTOR, Upsampler},
@@ -44,6 +45,9 @@ impl Block {
 /// Events in, frames out. Without a session it is silent and renders no tick.
 pub struct Engine<'q, 'a> {
     hand: Hand,
+    press: Press,
+    /// Load of the last tick, N.
+    load_n: f32,
     clock: Clock,
     upsampler: Upsampler,
     /// The phase of the next frame.
@@ -57,6 +61,8 @@ impl<'q, 'a> Engine<'q, 'a> {
     pub const fn new(delay_s: f64) -> Self {
         Self {
             hand: Hand::new(delay_s),
+            press: Press::new(),
+            load_n: 0.0,
             clock: Clock::new(),
             upsampler: Upsampler::new(),
             phase: 0,
@@ -119,8 +125,15 @@ impl<'q, 'a> Engine<'q, 'a> {
         };
         for (n, frame) in frames.enumerate() {
             if self.phase == 0 {
-                let position_mm = self.hand.step(now_s + n as f64 / FRAME_HZ);
+                let hand_mm = self.hand.step(now_s + n as f64 / FRAME_HZ);
+                let under = Under {
+                    stiffness_n_m: session.stiffness_n_m(),
+                    load_n: self.load_n,
+                    gives_way: session.gives_way(),
+                };
+                let position_mm = self.press.step(hand_mm, under);
                 let tick = session.tick(position_mm);
+                self.load_n = tick.columns[2];
                 self.upsampler.push(tick.acceleration_m_s2);
                 block.positions_mm[block.ticks] = position_mm;
                 block.columns[block.ticks] = tick.columns;

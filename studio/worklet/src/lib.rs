@@ -4,7 +4,7 @@
 //! pointer events ─► hand ─► position, 16 kHz ─► runtime ─► acceleration ─► upsampler ─► frames, 48 kHz
 //! ```
 //!
-//! [`hand`] follows the pointer as a hand would, [`session`] is the runtime as `asperity render --rate
+//! [`hand`] follows the pointer as a hand would, [`press`] what gives way under it, [`session`] is the runtime as `asperity render --rate
 //! 16000` sets it up, [`upsample`] triples the rate, and [`engine`] is all of them. What is rendered
 //! for the recorded positions are the bits of the command. Gain, limiter and equaliser belong to the page.
 //! [`spectrum`] says what the models promise at a speed and a force, for the page's plots, and
@@ -22,6 +22,7 @@ pub mod engine;
 #[cfg(target_arch = "wasm32")]
 mod exports;
 pub mod hand;
+pub mod press;
 pub mod row;
 pub mod session;
 pub mod spectrum;

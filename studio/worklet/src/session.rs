@@ -135,6 +135,12 @@ impl<'q, 'a> Session<'q, 'a> {
         self.renderer.wall(&coupling).stiffness.0
     }
 
+    /// Returns true if what plays gives way.
+    #[must_use]
+    pub fn gives_way(&self) -> bool {
+        self.player.texture().gives_way()
+    }
+
     /// Rate of the models of the texture that plays, Hz.
     #[must_use]
     pub fn model_rate_hz(&self) -> f32 {
