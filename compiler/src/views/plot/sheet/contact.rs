@@ -1,6 +1,9 @@
 //! Friction with its anchors, against normal force or, where it depends on it, speed; and the wall's force against displacement.
 
-use super::layout::reach;
+use super::{
+    layout::reach,
+    press::{self, HOLD_S, Press, SPEED_M_S},
+};
 use asperity_plot::{
     Align, Axis, Canvas, Color, Key, Margins, Panel, Rect, Stroke, TextStyle, VAlign, ink, legend,
     size,
@@ -14,6 +17,8 @@ const KEY_WIDTH: f32 = 44.0;
 const LINE_HEIGHT: f32 = 31.0;
 /// Speed of pressing and leaving at which damping is shown, m/s.
 const PRESS_SPEED_M_S: f64 = 0.1;
+/// Part of the peak force to which a press goes.
+const PRESSED: f64 = 0.6;
 
 pub(super) fn draw(canvas: &mut Canvas, rect: Rect, model: &TextureModel) {
     let half = 0.5 * rect.height;
@@ -154,14 +159,17 @@ fn draw_wall(canvas: &mut Canvas, rect: Rect, model: &TextureModel) {
     let limit_n = gains.f_max_n;
     let damping_n = wall.damping_n_s_m * PRESS_SPEED_M_S;
     let top_n = 1.2 * limit_n.max(0.0) + damping_n.max(0.0);
+    let loop_of = press::press(model, PRESSED * limit_n.max(0.0));
     let depth_mm = match &model.contact {
         Some(law) => law.pressed_mm(top_n, wall.stiffness_n_m),
         None => 1000.0 * top_n / wall.stiffness_n_m,
     };
+    let pulls = loop_of.iter().flat_map(|press| &press.up);
+    let pull_n = pulls.map(|&(_, force_n)| force_n).fold(0.0, f64::min);
     let panel = Panel::new(
         rect,
         Axis::new("Penetration (mm)", 0.0, depth_mm).ticks_about(4),
-        Axis::new("Wall force (N)", 0.0, top_n).ticks_about(5),
+        Axis::new("Wall force (N)", 1.2 * pull_n, top_n).ticks_about(5),
     )
     .margins(margins(40.0));
     panel.draw_frame(canvas);
@@ -181,12 +189,24 @@ fn draw_wall(canvas: &mut Canvas, rect: Rect, model: &TextureModel) {
         })
     };
     // Damping is drawn where it is large enough to be seen.
-    let damped = damping_n > 0.01 * top_n;
+    let damped = damping_n > 0.01 * top_n && loop_of.is_none();
     if damped {
         panel.line(canvas, path(PRESS_SPEED_M_S), moving);
         panel.line(canvas, path(-PRESS_SPEED_M_S), moving);
     }
-    panel.line(canvas, path(0.0), Stroke::new(ink::BLACK, 4.0));
+    let slowly = Stroke::new(ink::BLACK, 4.0);
+    panel.line(canvas, path(0.0), slowly);
+    let held = Stroke::new(ink::ORANGE, 3.0);
+    if let Some(Press {
+        down,
+        held: hold,
+        up,
+    }) = &loop_of
+    {
+        panel.line(canvas, down.iter().copied(), moving);
+        panel.line(canvas, hold.iter().copied(), held);
+        panel.line(canvas, up.iter().copied(), moving);
+    }
     let limit = Stroke::new(ink::VERMILION, 2.5).dotted();
     panel.horizontal_line(canvas, limit_n, limit);
 
@@ -195,6 +215,11 @@ fn draw_wall(canvas: &mut Canvas, rect: Rect, model: &TextureModel) {
     words.strong(canvas, &format!("b = {} N·s/m", brief(wall.damping_n_s_m)));
     if damped {
         words.line_key(canvas, moving, "pressed, left at 0.1 m/s");
+    }
+    if loop_of.is_some() {
+        words.line_key(canvas, slowly, "pressed slowly");
+        words.line_key(canvas, moving, &format!("pressed, left at {SPEED_M_S} m/s"));
+        words.line_key(canvas, held, &format!("held for {HOLD_S} s"));
     }
     words.line_key(canvas, limit, &format!("peak force {} N", brief(limit_n)));
     words.quiet(

@@ -7,6 +7,7 @@ mod header;
 mod layout;
 mod level;
 mod poles;
+mod press;
 mod spectra;
 mod taps;
 
