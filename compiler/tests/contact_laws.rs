@@ -8,6 +8,7 @@ use asperity::{
     edit_memory::{Latents, Sliders},
     emit::{lower::lower, raise::raise},
     learned::{contact, friction},
+    library::Change,
     model::{ContactLaw, TextureModel},
     sources::{
         Tools,
@@ -290,6 +291,59 @@ fn words_move_a_law() {
     ] {
         assert_eq!(law(name), law(same), "{name}");
     }
+}
+
+/// Claim: words of an edit move a law, an edit taken back brings it back, and a comparison says so.
+#[test]
+fn words_of_an_edit_move_a_law() {
+    let compiled = |prompt: &str| {
+        let options = Options::default().without_preview();
+        PROMPTS.compile(prompt, &options).unwrap().lowered.bytes
+    };
+    let editor = LatentEditor::new(&PROMPTS);
+    let options = MixOptions {
+        preview: MixPreview::None,
+        ..MixOptions::default()
+    };
+    let changed = |bytes: &[u8], edit: Option<Edit>| {
+        let asset = Asset::parse(bytes).unwrap();
+        let mix = editor.change(&asset, edit.as_ref(), &options).unwrap();
+        let tools = Tools::of(&PROMPTS);
+        driver::compile(&mix.source, &mix.request, &tools)
+            .unwrap()
+            .lowered
+            .bytes
+    };
+    let law = |bytes: &[u8]| raise(&Asset::parse(bytes).unwrap()).contact.unwrap();
+    let words = |text: &str| Some(Edit::Words(text.to_owned()));
+    let honey = compiled("honey");
+    // Words of the contact alone, beside others, and in a row.
+    let runnier = changed(&honey, words("runnier"));
+    let viscous = |bytes: &[u8]| law(bytes).drag.unwrap().viscous_n_s_m2;
+    assert!(viscous(&runnier) < 0.3 * viscous(&honey));
+    let stickier = changed(&runnier, words("rougher and much stickier"));
+    let pull_n = |bytes: &[u8]| law(bytes).adhesion.unwrap().pull_n;
+    assert!(pull_n(&stickier) > 2.0 * pull_n(&runnier));
+    assert!((viscous(&stickier) / viscous(&runnier) - 1.0).abs() < 0.01);
+    let back = changed(&changed(&stickier, None), None);
+    assert!((viscous(&back) / viscous(&honey) - 1.0).abs() < 0.01);
+    let apart = |old: &[u8], new: &[u8]| {
+        Change::between(&Asset::parse(old).unwrap(), &Asset::parse(new).unwrap()).unwrap()
+    };
+    let change = apart(&honey, &stickier);
+    // More pull needs a deeper film.
+    assert_eq!(change.contact, ["adhesion", "drag", "relaxation", "spring"]);
+    let (soft, firm) = (compiled("soft foam"), compiled("firm foam"));
+    let change = apart(&soft, &firm);
+    assert!(
+        change.felt.contains(&"soft") && change.depth_mm.is_some(),
+        "{change:?}"
+    );
+    assert!(change.to_string().contains("depth under 1 N"), "{change}");
+    assert_eq!(
+        apart(&compiled("oak"), &compiled("steel plate")).depth_mm,
+        None
+    );
 }
 
 /// Claim: a law stays with the taps and the wall that it belongs to, through rates, edits, blends and compositions.

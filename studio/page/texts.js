@@ -406,6 +406,7 @@ export const texts = {
       tap_n: (old, now) => `tap ${apart(old, now, 3)} N`,
       stiffness_n_m: (old, now) => `wall ${apart(old, now, 0)} N/m`,
       mu: (old, now) => `μ ${apart(old, now, 3)}`,
+      depth_mm: (old, now) => `depth under 1 N ${apart(old, now, 1)} mm`,
       picture: "picture changed",
       only: (sections) => `Only sections ${sections}`,
     },

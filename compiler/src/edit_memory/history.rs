@@ -6,7 +6,7 @@ use super::{
 };
 use crate::learned::Certainty;
 use asperity_formats::limits::MAX_HISTORY_BYTES;
-use asperity_texture::model::shift::Shift;
+use asperity_texture::model::{ContactLaw, shift::Shift};
 use serde::{Deserialize, Serialize};
 
 /// Creation and edit history of a texture. For a prompt, the provenance holds prompt and seed; the history holds the
@@ -111,6 +111,9 @@ pub struct Step {
     /// Shift applied after decoding `before`.
     #[serde(default, skip_serializing_if = "Shift::is_none")]
     pub shift: Shift,
+    /// The contact law before it, if its words moved that.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact: Option<ContactLaw>,
 }
 
 impl Step {
@@ -122,6 +125,7 @@ impl Step {
             prompt: None,
             before: hex(before),
             shift: before.shift,
+            contact: None,
         }
     }
 

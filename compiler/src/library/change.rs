@@ -7,7 +7,7 @@ use crate::{
 use asperity_formats::Asset;
 use asperity_io::shown::counted;
 use asperity_texture::model::{
-    FrictionLaw, TextureModel,
+    ContactLaw, FrictionLaw, TextureModel,
     attributes::{self, Attributes},
     mixture::{self, Field},
 };
@@ -34,7 +34,13 @@ pub struct Change {
     /// Its law over speed, factors of μ: old and new. Absent where neither has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub law: Option<[Option<FrictionLaw>; 2]>,
-    /// Attributes that moved as far as a person notices: `rough`, `sharp`, `hard`, `slippery`.
+    /// Depth under 1 N, mm: old and new. Absent where neither has a contact law.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub depth_mm: Option<[f64; 2]>,
+    /// Parts of the contact law that changed, by their names.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub contact: Vec<String>,
+    /// What moved as far as a person notices: `rough`, `sharp`, `hard`, `slippery`, `soft`.
     pub felt: Vec<&'static str>,
     /// True if the picture changed.
     pub picture: bool,
@@ -55,6 +61,10 @@ impl Change {
             .any(|tag| tag.starts_with(|first: char| first.is_ascii_uppercase()) && tag != "NAME");
         let (before, after) = (raise(old), raise(new));
         let both = |figure: fn(&TextureModel) -> f64| [figure(&before), figure(&after)];
+        let gives_way = before.contact.is_some() || after.contact.is_some();
+        let depth_mm = gives_way.then(|| both(depth_mm));
+        let mut felt = felt(&attributes::of(&before), &attributes::of(&after));
+        felt.extend(depth_mm.filter(is_softer_or_firmer).map(|_| "soft"));
         Some(Self {
             spectrum_db: spectrum_db(&before, &after),
             vibration_n: both(|t| {
@@ -65,7 +75,9 @@ impl Change {
             mu: both(|t| t.friction.mu),
             law: (before.friction.law.is_some() || after.friction.law.is_some())
                 .then(|| [&before, &after].map(|t| t.friction.law.clone())),
-            felt: felt(&attributes::of(&before), &attributes::of(&after)),
+            depth_mm,
+            contact: contact(before.contact.as_ref(), after.contact.as_ref()),
+            felt,
             picture: old.preview_png() != new.preview_png(),
             haptic,
             sections,
@@ -73,10 +85,42 @@ impl Change {
     }
 }
 
-/// Just-noticeable differences: level 1.6 dB, frequency 18 %, friction 10 %.
+/// Just-noticeable differences: level 1.6 dB, frequency 18 %, friction 10 %, compliance 20 %.
 const NOTICED_DB: f64 = 1.6;
 const NOTICED_FREQUENCY: f64 = 1.18;
 const NOTICED_FRICTION: f64 = 1.1;
+const NOTICED_COMPLIANCE: f64 = 1.2;
+
+/// Depth under 1 N, mm, of what nothing pressed before.
+fn depth_mm(texture: &TextureModel) -> f64 {
+    let stiffness_n_m = texture.wall.stiffness_n_m;
+    let wall = ContactLaw::default();
+    texture
+        .contact
+        .as_ref()
+        .unwrap_or(&wall)
+        .pressed_mm(1.0, stiffness_n_m)
+}
+
+fn is_softer_or_firmer([old, new]: &[f64; 2]) -> bool {
+    old.max(*new) >= NOTICED_COMPLIANCE * old.min(*new)
+}
+
+/// The parts in which two laws differ.
+fn contact(old: Option<&ContactLaw>, new: Option<&ContactLaw>) -> Vec<String> {
+    let parts = |law: Option<&ContactLaw>| match law.map(serde_json::to_value) {
+        Some(Ok(serde_json::Value::Object(parts))) => parts,
+        _ => serde_json::Map::new(),
+    };
+    let (old, new) = (parts(old), parts(new));
+    let mut names: Vec<&String> = old.keys().chain(new.keys()).collect();
+    names.sort();
+    names.dedup();
+    let changed = names
+        .into_iter()
+        .filter(|name| old.get(*name) != new.get(*name));
+    changed.cloned().collect()
+}
 
 fn felt(old: &Attributes, new: &Attributes) -> Vec<&'static str> {
     let ln = |x: Option<f64>| x.map(libm::log);
@@ -176,6 +220,14 @@ impl fmt::Display for Change {
                 None => "constant".to_owned(),
             };
             parts.push(format!("μ over speed: {} → {}", way(old), way(new)));
+        }
+        if let Some([old, new]) = self.depth_mm
+            && old != new
+        {
+            parts.push(format!("depth under 1 N {old:.1} → {new:.1} mm"));
+        }
+        if !self.contact.is_empty() {
+            parts.push(format!("contact law: {}", self.contact.join(", ")));
         }
         if self.picture {
             parts.push("picture changed".into());

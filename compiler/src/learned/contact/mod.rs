@@ -9,12 +9,13 @@ mod words;
 use mix::ALONE;
 pub use mix::{Share, mixed};
 pub use table::{Material, materials};
+pub use words::is_said;
 
 use super::{
     description::{Anchor, ModelDescription},
     friction,
 };
-use asperity_language::reading::Reading;
+use asperity_language::reading::{Reading, normalise};
 use asperity_model::CONTACT_LAWS;
 use asperity_texture::model::{ContactLaw, FrictionAnchor, TextureModel};
 
@@ -104,6 +105,15 @@ pub fn of(
         law: words::worded(named.material.law.clone(), &named.others),
         named: Some(named.material),
     })
+}
+
+/// A law as the words of an edit move it, "stickier, less springy"; `None` where they leave it as it is.
+#[must_use]
+pub fn edited(law: &ContactLaw, text: &str) -> Option<ContactLaw> {
+    let tokens = normalise(text);
+    let words = tokens.iter().map(|token| token.word().unwrap_or_default());
+    let edited = words::worded(law.clone(), &words.collect::<Vec<_>>());
+    (edited != *law).then_some(edited)
 }
 
 /// The name of the material that has the largest share at a latent.

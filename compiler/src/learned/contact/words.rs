@@ -100,7 +100,8 @@ fn effect(word: &str) -> Option<&'static Effect> {
 }
 
 /// Returns true for a word that says how something gives way, or how much so.
-pub(super) fn is_said(word: &str) -> bool {
+#[must_use]
+pub fn is_said(word: &str) -> bool {
     let about = degree(word).is_some() || DENIALS.contains(&word) || BETWEEN.contains(&word);
     about || effect(word).is_some()
 }

@@ -51,6 +51,18 @@ pub struct EditResult {
     pub unread: Vec<String>,
 }
 
+impl EditResult {
+    /// An edit that leaves the latents where they are.
+    pub(super) fn still(latents: &Latents) -> Self {
+        Self {
+            latents: *latents,
+            sliders: Sliders::default(),
+            towards: None,
+            unread: Vec::new(),
+        }
+    }
+}
+
 impl LatentEditor<'_> {
     /// Applies an edit to a texture.
     ///
@@ -66,8 +78,7 @@ impl LatentEditor<'_> {
             Edit::Steps(sliders) => Ok(EditResult {
                 latents: self.edited(latents, sliders, request)?,
                 sliders: *sliders,
-                towards: None,
-                unread: Vec::new(),
+                ..EditResult::still(latents)
             }),
             Edit::Words(text) => self.worded(latents, text, request),
         }

@@ -11,6 +11,7 @@ use crate::{
     },
 };
 use asperity_io::diagnostic::{Failure, Fault};
+use asperity_language::phrase::relative;
 use asperity_texture::model::{ContactLaw, FrictionLaw, Provenance, TextureModel, shift::adjust};
 
 /// A texture that is decoded from latents.
@@ -172,18 +173,54 @@ impl FromLatents {
         edit: &Edit,
         request: &Request,
     ) -> Result<EditResult, Fault> {
-        let done = editor.edit(&self.latents, edit, request)?;
-        let step = Step::new(done.sliders, &self.latents);
-        self.history.steps.push(match edit {
-            Edit::Steps(_) => step,
-            Edit::Words(text) => step.worded(text),
-        });
+        let law = self.moved_law(editor, edit);
+        let of_contact_alone = matches!(edit, Edit::Words(text) if relative(text).is_nothing());
+        let mut done = if law.is_some() && of_contact_alone {
+            EditResult::still(&self.latents)
+        } else {
+            editor.edit(&self.latents, edit, request)?
+        };
+        let mut step = Step::new(done.sliders, &self.latents);
+        if let Edit::Words(text) = edit {
+            step = step.worded(text);
+        }
         self.latents = done.latents;
+        if let Some([before, after]) = law {
+            done.unread.retain(|word| !contact::is_said(word));
+            step.contact = Some(before);
+            self.contact = Some(self.own(after));
+        }
+        self.history.steps.push(step);
         if !done.unread.is_empty() {
             let unread = done.unread.join(", ");
             self.warnings.push(format!("not understood: {unread}"));
         }
         Ok(done)
+    }
+
+    /// The contact law before and after an edit whose words move it.
+    fn moved_law(&self, editor: &LatentEditor<'_>, edit: &Edit) -> Option<[ContactLaw; 2]> {
+        let Edit::Words(text) = edit else {
+            return None;
+        };
+        // The words of a likeness say what it becomes like.
+        if relative(text).towards.is_some() {
+            return None;
+        }
+        let compiler = editor.prompt_compiler;
+        let law = self.contact_law(compiler.model(), Some(compiler))?.law;
+        let moved = contact::edited(&law, text)?;
+        Some([law, moved])
+    }
+
+    /// A law of its own, at its latents.
+    fn own(&self, law: ContactLaw) -> OwnContact {
+        let before = self.contact.as_ref().map_or(0.0, |own| own.stiffness_n_m);
+        OwnContact {
+            stiffness_n_m: law.stiffness_n_m().unwrap_or(before),
+            law: Some(law),
+            tap: self.latents.tap,
+        }
     }
 
     /// Takes the last edit back.
@@ -198,6 +235,9 @@ impl FromLatents {
         let before = last.before();
         self.latents = before
             .ok_or_else(|| damaged(&self.name, "the latents before the last edit are damaged"))?;
+        if let Some(law) = last.contact {
+            self.contact = Some(self.own(law));
+        }
         Ok(())
     }
 }
