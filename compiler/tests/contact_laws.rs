@@ -280,6 +280,9 @@ fn forces_are_as_published() {
 /// Claim: words move the law of what is named, as far as they are stressed; denied ones and those of a name do not.
 #[test]
 fn words_move_a_law() {
+    // What carries the load is slippery, and its words say how much so.
+    let mu = |prompt: &str| texture(prompt).friction.mu;
+    assert!(mu("syrup") < 0.1 && mu("sticky syrup") > 1.1 * mu("syrup"));
     let adhesion = |prompt: &str| law(prompt).adhesion;
     assert_eq!(adhesion("honey, not sticky"), adhesion("honey"));
     assert!(adhesion("less sticky honey").unwrap().pull_n < adhesion("honey").unwrap().pull_n);

@@ -124,8 +124,13 @@ pub fn nearest<'a>(z: &[f32], description: &'a ModelDescription) -> Option<&'a s
     Some(&anchor.name)
 }
 
-/// Takes the films that carry a load, such as honey's, into μ and its anchors.
-fn slide(texture: &mut TextureModel, z: &[f32], description: &ModelDescription) {
+/// Takes the film that carries a load, that of what is named or those of the neighbours, into μ and its anchors.
+fn slide(
+    texture: &mut TextureModel,
+    named: Option<&Material>,
+    z: &[f32],
+    description: &ModelDescription,
+) {
     let near = shares(z, description);
     let film = |name: &str| table::material(name).and_then(|material| material.mu);
     let anchors = near.iter().map(|(weight, anchor)| FrictionAnchor {
@@ -133,7 +138,14 @@ fn slide(texture: &mut TextureModel, z: &[f32], description: &ModelDescription) 
         mu: film(&anchor.name).unwrap_or(anchor.mu),
         weight: *weight,
     });
-    let anchors: Vec<FrictionAnchor> = anchors.collect();
+    let anchors: Vec<FrictionAnchor> = match named.and_then(|named| Some((named, named.mu?))) {
+        Some((named, mu)) => vec![FrictionAnchor {
+            name: named.name.clone(),
+            mu,
+            weight: 1.0,
+        }],
+        None => anchors.collect(),
+    };
     let own: f64 = near.iter().map(|(weight, anchor)| weight * anchor.mu).sum();
     let slid: f64 = anchors.iter().map(|anchor| anchor.weight * anchor.mu).sum();
     if own > 0.0 && (slid / own - 1.0).abs() > LEAST_SLIDE {
@@ -150,15 +162,7 @@ pub fn give(
     description: &ModelDescription,
 ) {
     if let Some(choice) = &choice {
-        slide(texture, friction, description);
-        if let Some((named, mu)) = choice.named.and_then(|named| Some((named, named.mu?))) {
-            texture.friction.mu = mu;
-            texture.friction.anchors = vec![FrictionAnchor {
-                name: named.name.clone(),
-                mu,
-                weight: 1.0,
-            }];
-        }
+        slide(texture, choice.named, friction, description);
     }
     set(texture, choice.map(|choice| choice.law));
 }
