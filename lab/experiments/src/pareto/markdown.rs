@@ -2,6 +2,7 @@
 
 use super::contact::ContactSummary;
 use super::cortex_m::CortexM;
+use super::direction::DirectionSummary;
 use super::measure::Results;
 use super::reduced_material::ReducedMaterial;
 use super::statistics::{Spread, percentile};
@@ -10,7 +11,7 @@ use asperity::passes::reduce::Change;
 use asperity_kernels::design::Factor;
 use std::fmt::Write as _;
 
-/// Markdown of every table: designs by factor, contact laws, what `auto` keeps.
+/// Markdown of every table: designs by factor, contact laws, directions, what `auto` keeps.
 #[must_use]
 pub fn tables(results: &Results, cortex_m: &CortexM) -> String {
     let mut text = String::new();
@@ -33,6 +34,7 @@ pub fn tables(results: &Results, cortex_m: &CortexM) -> String {
         }
     }
     contact(&mut text, &results.contact);
+    direction(&mut text, &results.direction);
     kept(&mut text, results);
     text
 }
@@ -119,6 +121,27 @@ fn contact(text: &mut String, designs: &[ContactSummary]) {
             number(design.whole, 0),
             percent(design.press),
             percent(design.drag)
+        );
+    }
+    text.push('\n');
+}
+
+fn direction(text: &mut String, designs: &[DirectionSummary]) {
+    text.push_str(
+        "### direction\n\n| design | ribs, dB: median / p95 | ribs at the worst angle, dB: median / p95 | grain, dB: median / p95 | materials over 2 dB worse than a second grid |\n|---|---:|---:|---:|---:|\n",
+    );
+    for design in designs {
+        let spread = |s: Spread| format!("{:.2} / {:.2}", s.median, s.p95);
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {} | {} of {} |",
+            design.design.name(),
+            spread(design.ribs_db),
+            spread(design.worst_db),
+            spread(design.grain_db),
+            design.lose_at_worst,
+            design.materials
         );
     }
     text.push('\n');

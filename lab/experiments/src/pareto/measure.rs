@@ -4,6 +4,7 @@ use super::{
     accuracy::{Errors, Truth},
     contact::{self, ContactSummary},
     cost::{self, CountError, Counter},
+    direction::{self, DirectionSummary},
     reduced_material::ReducedMaterial,
     summary::{Measurement, VariantSummary, summarised},
 };
@@ -39,6 +40,8 @@ pub struct Results {
     pub kept: Vec<ReducedMaterial>,
     /// Contact laws with a part left out.
     pub contact: Vec<ContactSummary>,
+    /// Ways to follow the direction of a stroke; empty if the committed corpus is at fault.
+    pub direction: Vec<DirectionSummary>,
     /// The orders that instructions were counted at.
     pub common: Orders,
     /// Why instructions were not counted although they were wanted.
@@ -48,12 +51,13 @@ pub struct Results {
 /// Returns the number of times that [`measure`] calls `done`.
 #[must_use]
 pub fn steps(materials: usize) -> usize {
-    materials + variants().len() + 1
+    materials + variants().len() + 2
 }
 
 /// Measures every variant on every texture.
 ///
-/// `done` is called once for each material, for each variant and for all contact laws, from any thread.
+/// `done` is called once for each material, for each variant, for all contact laws and for all directions, from
+/// any thread.
 #[must_use]
 pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + Sync) -> Results {
     let variants = variants();
@@ -104,8 +108,11 @@ pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + S
             .ok()
     });
     done();
+    let direction = direction::measure().unwrap_or_default();
+    done();
     Results {
         contact,
+        direction,
         materials: textures.iter().map(|t| t.name.clone()).collect(),
         summaries,
         kept,

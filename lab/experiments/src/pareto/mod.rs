@@ -9,6 +9,7 @@
 //! | [`material`] | the textures that are measured |
 //! | [`accuracy`], [`difference`] | how far a design is from the f64 oracle, at rest and moving |
 //! | [`contact`] | contact laws with a part left out, and a linear spring in their place |
+//! | [`direction`] | ways to follow the direction of a stroke |
 //! | [`cost`], [`cortex_m`] | executed instructions, bytes |
 //! | [`reduced_material`] | what `--fidelity auto` keeps of a material |
 //! | [`mod@measure`], [`summary`], [`front`] | every design on every material, and which designs no other beats |
@@ -22,6 +23,7 @@ pub mod contact;
 pub mod cortex_m;
 pub mod cost;
 pub mod difference;
+pub mod direction;
 pub mod front;
 pub mod json;
 pub mod kernel;

@@ -2,6 +2,7 @@
 //! makes of them. It is synthetic and free of other people's rights.
 
 pub mod check;
+pub mod directions;
 pub mod lexicon;
 pub mod names;
 pub mod schema;
@@ -21,6 +22,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
+pub use directions::{Direction, directions};
 pub use lexicon::LexiconEntry;
 
 macro_rules! embedded {
@@ -90,9 +92,15 @@ const EMBEDDED_LEXICON: &[(&str, &str)] = embedded![
     "lexicon/vehicles.csv",
     "lexicon/words.csv",
 ];
-/// In the same folders but no part of the corpus: prompts of the evaluation, constants of the generator, ratings of the
-/// same phrases again, to compare.
-const BESIDE: [&str; 4] = ["pairs.toml", "probes.toml", "generator.toml", "anchors.csv"];
+/// In the same folders but no part of the corpus: prompts of the evaluation, constants of the generator, directions of
+/// materials, ratings of the same phrases again, to compare.
+const BESIDE: [&str; 5] = [
+    "pairs.toml",
+    "probes.toml",
+    "generator.toml",
+    "directions.toml",
+    "anchors.csv",
+];
 /// The lexicon beside the family files of a folder, and the folder of its further files.
 const LEXICON_FILE: &str = "everyday.toml";
 const LEXICON_FOLDER: &str = "lexicon";
