@@ -34,7 +34,7 @@ fn law(prompt: &str) -> ContactLaw {
     law.unwrap_or_else(|| panic!("{prompt} does not give way"))
 }
 
-/// Claim: the table has 65 materials by the model's names and five by their own, each with a law that an asset can hold as it is and a
+/// Claim: the table has 65 materials by the model's names and six by their own, each with a law that an asset can hold as it is and a
 /// source for each part; a material by its own name has its own law, and one that is not in the table has none.
 #[test]
 fn the_table_obeys_the_rules_and_a_name_has_its_own_law() {
@@ -42,7 +42,7 @@ fn the_table_obeys_the_rules_and_a_name_has_its_own_law() {
     let table: HashMap<&str, &contact::Material> = contact::materials()
         .map(|material| (material.name.as_str(), material))
         .collect();
-    assert_eq!(table.len(), 70);
+    assert_eq!(table.len(), 71);
     let found = (description.anchors.par_iter()).filter(|anchor| {
         let own = table
             .get(anchor.name.as_str())
@@ -56,7 +56,14 @@ fn the_table_obeys_the_rules_and_a_name_has_its_own_law() {
     let found = found.count();
     // The others are known by name alone.
     assert_eq!(found, 65);
-    for name in ["oil", "water", "whipped cream", "toothpaste", "set honey"] {
+    for name in [
+        "oil",
+        "water",
+        "whipped cream",
+        "toothpaste",
+        "set honey",
+        "glue",
+    ] {
         assert_eq!(law(name), table[name].law, "{name}");
     }
     let mut built = asperity::sources::builtin::texture();

@@ -34,7 +34,14 @@ const HARD: [&str; 16] = [
     "wooden",
 ];
 /// Words that say that what flows has become solid.
-const SOLID: [&str; 5] = ["dried", "hardened", "frozen", "cured", "solidified"];
+const SOLID: [&str; 6] = [
+    "dried",
+    "drying",
+    "hardened",
+    "frozen",
+    "cured",
+    "solidified",
+];
 /// Words of a name at most.
 const LONGEST: usize = 4;
 
@@ -59,7 +66,8 @@ pub(super) struct Named<'a> {
 impl Named<'_> {
     /// False for dried glue.
     pub(super) fn gives_way(&self) -> bool {
-        self.material.mu.is_none() || !self.others.iter().any(|word| SOLID.contains(word))
+        let flows = (self.material.law.drag).is_some_and(|drag| drag.viscous_n_s_m2 > 0.0);
+        !(flows && self.others.iter().any(|word| SOLID.contains(word)))
     }
 }
 

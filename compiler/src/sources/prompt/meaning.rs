@@ -117,7 +117,23 @@ impl PromptCompiler {
         adjust(&mut texture, &shift);
         let law = self.contact_law(&projection, &z)?;
         contact::give(&mut texture, law, &z, self.model().description());
+        self.slide_between(&mut texture, &projection.reading)?;
         Ok(texture)
+    }
+
+    /// Puts μ between those of two things, of which films may carry the load.
+    pub(super) fn slide_between(
+        &self,
+        texture: &mut TextureModel,
+        reading: &Reading,
+    ) -> Result<(), PromptError> {
+        if let Phrase::Between(first, second) = &reading.phrase
+            && texture.contact.is_some()
+        {
+            let mu = |thing| self.texture(thing).map(|texture| texture.friction.mu);
+            texture.friction.mu = (mu(first)? * mu(second)?).sqrt();
+        }
+        Ok(())
     }
 
     /// The contact law of a prompt at this latent: that of the material without its changes, as its words move it. Every

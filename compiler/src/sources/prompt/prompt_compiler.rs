@@ -185,6 +185,7 @@ impl PromptCompiler {
         adjust(&mut texture, &shift);
         let law = self.contact_law(&projection, &place)?;
         contact::give(&mut texture, law, &place, self.model.description());
+        self.slide_between(&mut texture, &projection.reading)?;
         let memory = Memory {
             model_crc32: self.model.crc32(),
             latents: Latents::whole(z).shifted(shift),
