@@ -1,9 +1,9 @@
 //! How a texture may follow the direction of a stroke: factors on the grid across, or a second grid along.
 //!
-//! A relief is stroked at an angle θ from across its axis. Two kinds are told apart, both made by the corpus's generator from
-//! the physical parameters of a material across and along: **ribs** with a relief of their own along them, which meet the tip
-//! at v·|cos θ| and v·|sin θ| and whose powers add, and a **grain**, one field that is stretched along the axis, of the
-//! wavelength 1/√(cos²θ/λ₁² + sin²θ/λ₂²) and a height between both.
+//! A relief is stroked at an angle θ from across its axis. The corpus's generator gives the spectra of two kinds, by the
+//! physical parameters across and along: **ribs** with a relief of their own along them, which meet the tip at v·|cos θ| and
+//! v·|sin θ| and whose powers add, and a **grain**, one field that is stretched along the axis, of the wavelength
+//! 1/√(cos²θ/λ₁² + sin²θ/λ₂²) and a height between both.
 
 use super::statistics::Spread;
 use crate::signal::rms;
