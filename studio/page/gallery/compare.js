@@ -8,12 +8,12 @@ import { texts } from "../texts.js";
 const MOST = 300;
 
 /** What changed in a texture, as `asperity diff` says it. */
-function changes({ felt, spectrum_db, vibration_n, tap_n, stiffness_n_m, mu, picture, sections }) {
+function changes({ felt, spectrum_db, vibration_n, tap_n, stiffness_n_m, mu, depth_mm = [0, 0], picture, sections }) {
   const said = texts.gallery.changes;
   const parts = [];
   if (spectrum_db === null) parts.push(said.no_spectra);
   else if (spectrum_db[1] > 0) parts.push(said.spectra(...spectrum_db));
-  for (const [name, [old, now]] of Object.entries({ vibration_n, tap_n, stiffness_n_m, mu })) {
+  for (const [name, [old, now]] of Object.entries({ vibration_n, tap_n, stiffness_n_m, mu, depth_mm })) {
     if (old !== now) parts.push(said[name](old, now));
   }
   if (picture) parts.push(said.picture);

@@ -126,11 +126,10 @@ impl<'q, 'a> Engine<'q, 'a> {
         for (n, frame) in frames.enumerate() {
             if self.phase == 0 {
                 let hand_mm = self.hand.step(now_s + n as f64 / FRAME_HZ);
-                let under = Under {
+                let under = session.gives_way().then(|| Under {
                     stiffness_n_m: session.stiffness_n_m(),
                     load_n: self.load_n,
-                    gives_way: session.gives_way(),
-                };
+                });
                 let position_mm = self.press.step(hand_mm, under);
                 let tick = session.tick(position_mm);
                 self.load_n = tick.columns[2];

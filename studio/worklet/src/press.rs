@@ -22,15 +22,13 @@ const DEEPEST_MM: f64 = 60.0;
 const NONE_MM: f64 = 1e-6;
 const TICK_S: f64 = 1.0 / RATE_HZ as f64;
 
-/// What is under the hand.
+/// What gives way under the hand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Under {
     /// Stiffness of the wall, N/m.
     pub stiffness_n_m: f32,
     /// Load of the last tick, N.
     pub load_n: f32,
-    /// True if it gives way.
-    pub gives_way: bool,
 }
 
 /// A hand that follows what gives way.
@@ -47,11 +45,12 @@ impl Press {
         Self { deeper_mm: 0.0 }
     }
 
-    /// The position in the next tick, mm, of a hand whose depth is its force over the stiffness.
-    pub fn step(&mut self, position_mm: [f32; 3], under: Under) -> [f32; 3] {
+    /// The position in the next tick, mm, of a hand whose depth is its force over the stiffness, over what gives way
+    /// or, with `None`, a wall.
+    pub fn step(&mut self, position_mm: [f32; 3], under: Option<Under>) -> [f32; 3] {
         let [x, y, z] = position_mm;
-        let pressed_n = f64::from(under.stiffness_n_m) * f64::from((-z).max(0.0)) / 1000.0;
-        if under.gives_way && pressed_n > 0.0 {
+        if let Some(under) = under.filter(|_| z < 0.0) {
+            let pressed_n = f64::from(under.stiffness_n_m) * f64::from(-z) / 1000.0;
             let fastest_mm = FASTEST_PRESS_MM_S * TICK_S;
             let step_mm = 1000.0 * (pressed_n - f64::from(under.load_n)) / DAMPING_N_S_M * TICK_S;
             let deeper_mm = self.deeper_mm + step_mm.clamp(-fastest_mm, fastest_mm);
@@ -91,11 +90,10 @@ mod tests {
             let asked_mm = [0.0, 0.0, -1000.0 * force_n / stiffness_n_m];
             let mut position_mm = asked_mm;
             for _ in 0..(seconds * RATE_HZ) as usize {
-                let under = Under {
+                let under = Some(Under {
                     stiffness_n_m,
                     load_n,
-                    gives_way: true,
-                };
+                });
                 let before_mm = position_mm;
                 position_mm = press.step(asked_mm, under);
                 let step_mm = f64::from((position_mm[2] - before_mm[2]).abs());
@@ -112,11 +110,6 @@ mod tests {
                 assert_eq!((position_mm, &press), (asked_mm, &Press::new()));
             }
         }
-        let steel = Under {
-            stiffness_n_m: 500.0,
-            load_n: 0.3,
-            gives_way: false,
-        };
-        assert_eq!(press.step([1.0, 2.0, -3.0], steel), [1.0, 2.0, -3.0]);
+        assert_eq!(press.step([1.0, 2.0, -3.0], None), [1.0, 2.0, -3.0]);
     }
 }

@@ -116,14 +116,6 @@ pub fn edited(law: &ContactLaw, text: &str) -> Option<ContactLaw> {
     (edited != *law).then_some(edited)
 }
 
-/// The name of the material that has the largest share at a latent.
-#[must_use]
-pub fn nearest<'a>(z: &[f32], description: &'a ModelDescription) -> Option<&'a str> {
-    let shares = shares(z, description).into_iter();
-    let (_, anchor) = shares.max_by(|a, b| a.0.total_cmp(&b.0))?;
-    Some(&anchor.name)
-}
-
 /// Takes the film that carries a load, that of what is named or those of the neighbours, into μ and its anchors.
 fn slide(
     texture: &mut TextureModel,

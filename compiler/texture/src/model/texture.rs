@@ -25,6 +25,18 @@ pub struct TextureModel {
     pub provenance: Provenance,
 }
 
+impl TextureModel {
+    /// The texture without vibration and taps: what is left is the contact.
+    #[must_use]
+    pub fn silent(mut self) -> Self {
+        self.taps.traces.clear();
+        for vertex in &mut self.grid.vertices {
+            vertex.sigma_m_s2 = 0.0;
+        }
+        self
+    }
+}
+
 /// AR or ARMA models over the speed–force plane, joined by triangles.
 ///
 /// The triangles tile the rectangle `[0, max_speed_mm_s] × [0, max_force_n]`.

@@ -51,11 +51,7 @@ impl Design {
     /// The silent built-in texture that gives way as a material does; `None` where nothing is left out of its law.
     /// A linear spring bears 1 N as deep as the law does.
     fn texture(&self, material: &contact::Material) -> Option<TextureModel> {
-        let mut texture = builtin::texture();
-        texture.taps.traces.clear();
-        for vertex in &mut texture.grid.vertices {
-            vertex.sigma_m_s2 = 0.0;
-        }
+        let mut texture = builtin::texture().silent();
         texture.friction.mu = material.mu.unwrap_or(texture.friction.mu);
         let whole = &material.law;
         match self.left_out {
@@ -93,7 +89,7 @@ pub struct ContactSummary {
 /// Measures every design on every material of the compiler's table.
 ///
 /// `count` gives the instructions a tick of what [`run`] runs with a material and a design; it is called once for each
-/// set of parts of a law.
+/// design on each set of parts of a whole law.
 pub fn measure(mut count: impl FnMut(&[usize]) -> Option<f64>) -> Vec<ContactSummary> {
     let mut known = HashMap::new();
     let materials: Vec<&contact::Material> = contact::materials().collect();
@@ -116,12 +112,10 @@ pub fn measure(mut count: impl FnMut(&[usize]) -> Option<f64>) -> Vec<ContactSum
             .collect();
         let mut mean = |design: usize| {
             let counts = errors.iter().map(|&(material, _)| {
-                let texture = DESIGNS[design].texture(materials[material]);
-                let parts = texture
-                    .and_then(|texture| texture.contact)
-                    .map(|law| parts(&law));
+                // A part is left out of the material that was counted whole.
+                let whole = parts(&materials[material].law);
                 *known
-                    .entry(parts)
+                    .entry((whole, design))
                     .or_insert_with(|| count(&[material, design]))
             });
             let sum: Option<f64> = counts.sum();

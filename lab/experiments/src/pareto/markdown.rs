@@ -140,7 +140,7 @@ fn direction(text: &mut String, designs: &[DirectionSummary]) {
             spread(design.ribs_db),
             spread(design.worst_db),
             spread(design.grain_db),
-            design.lose_at_worst,
+            design.lose,
             design.materials
         );
     }

@@ -12,6 +12,7 @@ use asperity::{
     model::{ModelGrid, Numerator, TextureModel},
     passes::reduce::{self, Fidelity, Reference, order::Fits},
 };
+use asperity_corpus::CorpusError;
 use asperity_kernels::{
     design::{Design, Order, Variant, variants},
     workload::Orders,
@@ -40,7 +41,7 @@ pub struct Results {
     pub kept: Vec<ReducedMaterial>,
     /// Contact laws with a part left out.
     pub contact: Vec<ContactSummary>,
-    /// Ways to follow the direction of a stroke; empty if the committed corpus is at fault.
+    /// Ways to follow the direction of a stroke.
     pub direction: Vec<DirectionSummary>,
     /// The orders that instructions were counted at.
     pub common: Orders,
@@ -58,8 +59,14 @@ pub fn steps(materials: usize) -> usize {
 ///
 /// `done` is called once for each material, for each variant, for all contact laws and for all directions, from
 /// any thread.
-#[must_use]
-pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + Sync) -> Results {
+///
+/// # Errors
+/// [`CorpusError`] of the committed corpus.
+pub fn measure(
+    textures: &[TextureModel],
+    options: &Options,
+    done: impl Fn() + Sync,
+) -> Result<Results, CorpusError> {
     let variants = variants();
     let measured: Vec<Measured> = textures
         .par_iter()
@@ -108,9 +115,9 @@ pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + S
             .ok()
     });
     done();
-    let direction = direction::measure().unwrap_or_default();
+    let direction = direction::measure()?;
     done();
-    Results {
+    Ok(Results {
         contact,
         direction,
         materials: textures.iter().map(|t| t.name.clone()).collect(),
@@ -118,7 +125,7 @@ pub fn measure(textures: &[TextureModel], options: &Options, done: impl Fn() + S
         kept,
         common,
         not_counted: failed,
-    }
+    })
 }
 
 /// Measurements on a material.
@@ -261,6 +268,7 @@ mod tests {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
             pool.unwrap()
                 .install(|| measure(&textures, &options, || ()))
+                .unwrap()
         };
         let (one, two) = (run(1), run(2));
         assert_eq!(one.summaries, two.summaries);

@@ -123,11 +123,7 @@ impl Material {
         (stiffness_n_m, damping_n_s_m): (f64, f64),
         contact: Option<ContactLaw>,
     ) -> Result<Self, StabilityError> {
-        let mut model = asperity::sources::builtin::texture();
-        model.taps.traces.clear();
-        for vertex in &mut model.grid.vertices {
-            vertex.sigma_m_s2 = 0.0;
-        }
+        let mut model = asperity::sources::builtin::texture().silent();
         model.wall.stiffness_n_m = stiffness_n_m;
         model.wall.damping_n_s_m = damping_n_s_m;
         model.contact = contact;

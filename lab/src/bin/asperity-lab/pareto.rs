@@ -71,7 +71,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
         instructions: !arguments.quick,
     };
     let bar = console.bar(steps(textures.len()), "measuring");
-    let results = measure(&textures, &options, || bar.inc(1));
+    let results = measure(&textures, &options, || bar.inc(1)).map_err(one)?;
     bar.finish_and_clear();
     let written = match &arguments.out {
         Some(folder) => {

@@ -19,11 +19,7 @@ pub(super) struct Press {
 
 /// Presses to a force, holds the depth and leaves. `None` where the texture cannot be an asset.
 pub(super) fn press(model: &TextureModel, force_n: f64) -> Option<Press> {
-    let mut silent = model.clone();
-    silent.taps.traces.clear();
-    for vertex in &mut silent.grid.vertices {
-        vertex.sigma_m_s2 = 0.0;
-    }
+    let silent = model.clone().silent();
     let bytes = lower(&silent, None).ok()?.bytes;
     let asset = Asset::parse(&bytes).ok()?;
     let config = Config {
