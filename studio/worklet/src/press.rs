@@ -8,7 +8,7 @@
 //! b·de/dt = k·d − load,   b = 10 N·s/m,
 //! ```
 //!
-//! so that it comes to rest where the load is F. In the open e falls to zero within [`RETURN_S`].
+//! so that it comes to rest where the load is F. In the open e returns to zero with a time constant of 30 ms.
 
 use crate::hand::{FASTEST_PRESS_MM_S, RATE_HZ};
 
