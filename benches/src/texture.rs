@@ -2,9 +2,9 @@
 //! 13 taps of 100 samples at 10 kHz. They are synthetic: only their sizes matter.
 
 use asperity_formats::{
-    Adhesion, Anchor, AssetParts, ContactParts, Coupling, Drag, FrictionParts, GridParts, Imprint,
-    LawPoint, LsfCode, ModelParts, Numerator, Relaxation, SpringPoint, TapParts, Vertex,
-    VertexKind, encode,
+    Adhesion, Anchor, AssetParts, ContactParts, Coupling, Direction, Drag, FrictionParts,
+    GridParts, Imprint, LawPoint, LsfCode, ModelParts, Numerator, Relaxation, SpringPoint,
+    TapParts, Vertex, VertexKind, encode,
     limits::{MAX_LAW_POINTS, MAX_SPRING_POINTS},
 };
 
@@ -38,7 +38,11 @@ pub fn texture_with_law(order: usize, numerator: Numerator) -> Vec<u8> {
             factor_code: 8192 - 512 * k,
         })
         .collect();
-    encoded(order, numerator, COLUMNS, ROWS, &law, None)
+    let extras = Extras {
+        law: &law,
+        ..Extras::default()
+    };
+    encoded(order, numerator, (COLUMNS, ROWS), extras)
 }
 
 /// [`texture`] with a contact law that has every part, and the most points of a spring.
@@ -75,7 +79,30 @@ pub fn texture_with_contact(order: usize, numerator: Numerator) -> Vec<u8> {
         },
         spring: &points,
     };
-    encoded(order, numerator, COLUMNS, ROWS, &[], Some(contact))
+    let extras = Extras {
+        contact: Some(contact),
+        ..Extras::default()
+    };
+    encoded(order, numerator, (COLUMNS, ROWS), extras)
+}
+
+/// [`texture`] with ribs along y, so that strokes along x cross them.
+///
+/// # Panics
+/// If the format refuses the texture.
+#[must_use]
+pub fn texture_with_direction(order: usize, numerator: Numerator) -> Vec<u8> {
+    let extras = Extras {
+        direction: Some(Direction {
+            axis: [0.0, 1.0, 0.0],
+            power_ratio: 0.25,
+            speed_ratio: 0.5,
+            mu_forward: 0.75,
+            mu_backward: 1.25,
+        }),
+        ..Extras::default()
+    };
+    encoded(order, numerator, (COLUMNS, ROWS), extras)
 }
 
 /// [`texture`] on a grid of its own: `columns` × `rows` vertices, two triangles to each rectangle.
@@ -84,16 +111,22 @@ pub fn texture_with_contact(order: usize, numerator: Numerator) -> Vec<u8> {
 /// If the format refuses the texture.
 #[must_use]
 pub fn texture_on(order: usize, numerator: Numerator, columns: usize, rows: usize) -> Vec<u8> {
-    encoded(order, numerator, columns, rows, &[], None)
+    encoded(order, numerator, (columns, rows), Extras::default())
+}
+
+/// What a texture may have beside its grid and its taps.
+#[derive(Default)]
+struct Extras<'a> {
+    law: &'a [LawPoint],
+    contact: Option<ContactParts<'a>>,
+    direction: Option<Direction>,
 }
 
 fn encoded(
     order: usize,
     numerator: Numerator,
-    columns: usize,
-    rows: usize,
-    law: &[LawPoint],
-    contact: Option<ContactParts<'_>>,
+    (columns, rows): (usize, usize),
+    extras: Extras<'_>,
 ) -> Vec<u8> {
     let ma_order = if numerator == Numerator::Lsf {
         order.saturating_sub(2).max(1)
@@ -149,7 +182,7 @@ fn encoded(
                 mu: 0.4,
                 weight: 1.0,
             }],
-            law,
+            law: extras.law,
         },
         coupling: Coupling {
             stiffness_n_m: 500.0,
@@ -158,7 +191,8 @@ fn encoded(
             effective_mass_kg: 0.05,
             f_max_n: 3.3,
         },
-        contact,
+        contact: extras.contact,
+        direction: extras.direction,
         provenance: None,
         preview_png: None,
     };

@@ -4,6 +4,7 @@ use crate::{
     checksum::crc32,
     contact::ContactLaw,
     coupling::Coupling,
+    direction::Direction,
     error::FormatError,
     friction::{Friction, text},
     grid::Grid,
@@ -27,6 +28,7 @@ pub struct Asset<'a> {
     friction: Friction<'a>,
     coupling: Coupling,
     contact: Option<ContactLaw<'a>>,
+    direction: Option<Direction>,
     provenance: Option<Provenance<'a>>,
 }
 
@@ -98,6 +100,7 @@ impl<'a> Asset<'a> {
                 .map(|s| body(bytes, &s))
         };
         let haptic = |tag| find(tag).unwrap_or_default();
+        let friction = Friction::parse(haptic(header::FRICTION), header.version)?;
         // In place: an asset that is moved takes its room twice.
         Ok(Self {
             bytes,
@@ -105,9 +108,12 @@ impl<'a> Asset<'a> {
             name: text("name", 0, haptic(header::NAME))?,
             grid: Grid::parse(haptic(header::GRID))?,
             taps: Taps::parse(haptic(header::TAPS))?,
-            friction: Friction::parse(haptic(header::FRICTION), header.version)?,
+            friction,
             coupling: Coupling::parse(haptic(header::COUPLING))?,
             contact: find(header::CONTACT).map(ContactLaw::parse).transpose()?,
+            direction: find(header::AXIS)
+                .map(|bytes| Direction::parse(bytes, &friction))
+                .transpose()?,
             provenance: ancillary(
                 find(header::PROVENANCE),
                 preview(bytes, &header),
@@ -117,7 +123,7 @@ impl<'a> Asset<'a> {
         })
     }
 
-    /// Version the asset was written in: 3 with a contact law, 2 if its friction has a law, else 1.
+    /// Version the asset was written in: 3 with a contact law or a direction, 2 if its friction has a law, else 1.
     #[must_use]
     pub const fn version(&self) -> u16 {
         self.header.version
@@ -157,6 +163,12 @@ impl<'a> Asset<'a> {
     #[must_use]
     pub const fn contact(&self) -> Option<&ContactLaw<'a>> {
         self.contact.as_ref()
+    }
+
+    /// The direction, if it differs along an axis and across it.
+    #[must_use]
+    pub const fn direction(&self) -> Option<&Direction> {
+        self.direction.as_ref()
     }
 
     /// Provenance; absent after [`Asset::parse_haptic`].

@@ -5,12 +5,13 @@ use crate::{
     checksum::crc32,
     contact::{Adhesion, Drag, Imprint, Relaxation, SpringPoint},
     coupling::Coupling,
+    direction::Direction,
     error::{EncodeError, FormatError},
     friction::Anchor,
     friction_law::LawPoint,
     grid::{Numerator, Vertex, VertexKind},
     header::{
-        self, ENTRY_LEN, FIXED_LEN, HAPTIC, MAGIC, VERSION_WITH_CONTACT, VERSION_WITH_LAW,
+        self, ENTRY_LEN, FIXED_LEN, HAPTIC, MAGIC, VERSION_WITH_LAW, VERSION_WITH_MORE,
         VERSION_WITHOUT_LAW,
     },
     lsf::LsfCode,
@@ -34,6 +35,8 @@ pub struct AssetParts<'a> {
     pub coupling: Coupling,
     /// The contact law of a material that gives way; with one the asset is of version 3.
     pub contact: Option<ContactParts<'a>>,
+    /// The direction of ribs, a grain or a nap; with one the asset is of version 3.
+    pub direction: Option<Direction>,
     /// Where the texture comes from.
     pub provenance: Option<Provenance<'a>>,
     /// PNG.
@@ -119,7 +122,8 @@ pub struct ContactParts<'a> {
 pub fn encode(parts: &AssetParts<'_>, out: &mut [u8]) -> Result<usize, EncodeError> {
     let ancillary =
         usize::from(parts.provenance.is_some()) + usize::from(parts.preview_png.is_some());
-    let sections = HAPTIC.len() + usize::from(parts.contact.is_some()) + ancillary;
+    let more = usize::from(parts.contact.is_some()) + usize::from(parts.direction.is_some());
+    let sections = HAPTIC.len() + more + ancillary;
     let table_end = FIXED_LEN + sections * ENTRY_LEN;
     let mut table = Table {
         entry: FIXED_LEN,
@@ -141,6 +145,10 @@ pub fn encode(parts: &AssetParts<'_>, out: &mut [u8]) -> Result<usize, EncodeErr
         let end = write_contact(contact, Writer::new(out, table.section))?;
         table.close(out, header::CONTACT, end)?;
     }
+    if let Some(direction) = &parts.direction {
+        let end = write_direction(direction, Writer::new(out, table.section))?;
+        table.close(out, header::AXIS, end)?;
+    }
     let haptic_len = table.section;
     if let Some(provenance) = &parts.provenance {
         let place = out.get_mut(table.section..).unwrap_or_default();
@@ -159,8 +167,8 @@ pub fn encode(parts: &AssetParts<'_>, out: &mut [u8]) -> Result<usize, EncodeErr
     let total_len = table.section;
     let mut writer = Writer::new(out, 0);
     writer.bytes(&MAGIC)?;
-    writer.u16(if parts.contact.is_some() {
-        VERSION_WITH_CONTACT
+    writer.u16(if more > 0 {
+        VERSION_WITH_MORE
     } else if parts.friction.law.is_empty() {
         VERSION_WITHOUT_LAW
     } else {
@@ -379,6 +387,19 @@ fn write_contact(contact: &ContactParts<'_>, mut writer: Writer<'_>) -> Result<u
     for point in contact.spring {
         writer.u16(point.depth_code)?;
         writer.u16(point.shape_code)?;
+    }
+    Ok(writer.position())
+}
+
+fn write_direction(direction: &Direction, mut writer: Writer<'_>) -> Result<usize, EncodeError> {
+    let numbers = [
+        direction.power_ratio,
+        direction.speed_ratio,
+        direction.mu_forward,
+        direction.mu_backward,
+    ];
+    for value in direction.axis.into_iter().chain(numbers) {
+        writer.f32(value)?;
     }
     Ok(writer.position())
 }

@@ -2,8 +2,8 @@
 
 use crate::{
     error::{FormatError, in_range},
-    friction_law::FrictionLaw,
-    header::{VERSION_WITH_CONTACT, VERSION_WITH_LAW, VERSION_WITHOUT_LAW},
+    friction_law::{FrictionLaw, LawPoint},
+    header::{VERSION_WITH_LAW, VERSION_WITH_MORE, VERSION_WITHOUT_LAW},
     limits,
     wire::Reader,
 };
@@ -37,7 +37,7 @@ impl<'a> Friction<'a> {
         let has_law = match version {
             ..VERSION_WITH_LAW => false,
             VERSION_WITH_LAW => true,
-            VERSION_WITH_CONTACT.. => !reader.is_empty(),
+            VERSION_WITH_MORE.. => !reader.is_empty(),
         };
         if has_law {
             friction.law = Some(FrictionLaw::parse(&mut reader, friction.mu)?);
@@ -97,6 +97,13 @@ impl<'a> Friction<'a> {
     #[must_use]
     pub const fn law(&self) -> Option<FrictionLaw<'a>> {
         self.law
+    }
+
+    /// The largest μ at any speed.
+    pub(crate) fn highest_mu(&self) -> f32 {
+        let points = self.law.into_iter().flat_map(|law| law.points());
+        let factor = points.map(LawPoint::factor).reduce(f32::max);
+        self.mu * factor.unwrap_or(1.0)
     }
 
     /// The anchors, in stored order.

@@ -3,13 +3,13 @@
 use crate::{checksum::crc32, error::FormatError, limits, wire::array_at};
 
 /// Latest version of the asset format; an asset is written in the lowest one that can hold it.
-pub const VERSION: u16 = VERSION_WITH_CONTACT;
+pub const VERSION: u16 = VERSION_WITH_MORE;
 /// The version of an asset whose friction has no law.
 pub(crate) const VERSION_WITHOUT_LAW: u16 = 1;
 /// The version of an asset whose friction has a law.
 pub(crate) const VERSION_WITH_LAW: u16 = 2;
-/// The version of an asset with a contact law.
-pub(crate) const VERSION_WITH_CONTACT: u16 = 3;
+/// The version of an asset with sections of [`MORE`].
+pub(crate) const VERSION_WITH_MORE: u16 = 3;
 /// First bytes of an asset.
 pub(crate) const MAGIC: [u8; 4] = *b"ASPT";
 /// Bytes before the section table.
@@ -25,12 +25,13 @@ pub(crate) const TAPS: [u8; 4] = *b"TAPS";
 pub(crate) const FRICTION: [u8; 4] = *b"FRIC";
 pub(crate) const COUPLING: [u8; 4] = *b"SURF";
 pub(crate) const CONTACT: [u8; 4] = *b"CONT";
+pub(crate) const AXIS: [u8; 4] = *b"AXIS";
 pub(crate) const PROVENANCE: [u8; 4] = *b"prov";
 pub(crate) const PREVIEW: [u8; 4] = *b"prev";
 pub(crate) const LATENT: [u8; 4] = *b"late";
 pub(crate) const HISTORY: [u8; 4] = *b"hist";
 
-/// The haptic sections that every asset has, in this order. Version 3 adds [`CONTACT`].
+/// The haptic sections that every asset has, in this order.
 pub(crate) const HAPTIC: [([u8; 4], &str); 5] = [
     (NAME, "name"),
     (GRID, "grid"),
@@ -38,6 +39,8 @@ pub(crate) const HAPTIC: [([u8; 4], &str); 5] = [
     (FRICTION, "friction"),
     (COUPLING, "surface"),
 ];
+/// The haptic sections of version 3, behind the others in this order; at least one of them.
+pub(crate) const MORE: [([u8; 4], &str); 2] = [(CONTACT, "contact"), (AXIS, "direction")];
 
 /// Location and checksum of a section in an asset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,9 +64,9 @@ impl SectionInfo {
 
     /// The tag as the name that errors use.
     pub(crate) fn label(&self) -> &'static str {
-        HAPTIC.iter().find(|(tag, _)| *tag == self.tag).map_or_else(
+        let mut haptic = HAPTIC.iter().chain(&MORE);
+        haptic.find(|(tag, _)| *tag == self.tag).map_or_else(
             || match self.tag {
-                CONTACT => "contact",
                 PROVENANCE => "provenance",
                 PREVIEW => "preview",
                 LATENT => "latent",
@@ -163,10 +166,12 @@ impl<'a> Header<'a> {
                 });
             }
         }
-        if self.has_contact() != (self.version >= VERSION_WITH_CONTACT) {
+        if (self.haptic_count() > HAPTIC.len()) != (self.version >= VERSION_WITH_MORE) {
+            let next = self.sections().nth(HAPTIC.len());
+            let more = next.filter(|section| MORE.iter().any(|(tag, _)| *tag == section.tag));
             return Err(FormatError::Section {
-                tag: CONTACT,
-                reason: "must be there in version 3, and in no earlier one",
+                tag: more.map_or(CONTACT, |section| section.tag),
+                reason: "version 3 has CONT, AXIS or both, and no earlier one has either",
             });
         }
         for (position, section) in self.sections().enumerate().skip(self.haptic_count()) {
@@ -208,13 +213,9 @@ impl<'a> Header<'a> {
         Ok(())
     }
 
-    fn has_contact(&self) -> bool {
-        self.sections().nth(HAPTIC.len()).map(|s| s.tag) == Some(CONTACT)
-    }
-
     /// Number of haptic sections.
     pub(crate) fn haptic_count(&self) -> usize {
-        HAPTIC.len() + usize::from(self.has_contact())
+        count_haptic(self.sections().map(|section| section.tag))
     }
 
     fn end_of(&self, sections: impl Iterator<Item = SectionInfo>) -> u64 {
@@ -236,4 +237,13 @@ impl<'a> Header<'a> {
             section
         })
     }
+}
+
+/// Number of haptic sections at the front of these tags, of which the first five are in order.
+pub(crate) fn count_haptic(tags: impl Iterator<Item = [u8; 4]>) -> usize {
+    let mut more = MORE.iter();
+    let behind = tags
+        .skip(HAPTIC.len())
+        .take_while(|tag| more.any(|(next, _)| next == tag));
+    HAPTIC.len() + behind.count()
 }

@@ -25,8 +25,8 @@
 //!
 //! # What to read first
 //!
-//! [`Asset`], then the views that it gives: [`Grid`], [`Taps`], [`Friction`], [`Coupling`], [`ContactLaw`]. [`encode()`] writes an
-//! asset from [`AssetParts`]. [`Library`] finds one texture among many, [`Scene`] places them on solids, and
+//! [`Asset`], then the views that it gives: [`Grid`], [`Taps`], [`Friction`], [`Coupling`], [`ContactLaw`],
+//! [`Direction`]. [`encode()`] writes an asset from [`AssetParts`]. [`Library`] finds one texture among many, [`Scene`] places them on solids, and
 //! [`limits`] states what readers have to make room for. `SPEC.md` beside this crate specifies every byte.
 #![no_std]
 #![forbid(unsafe_code)]
@@ -35,6 +35,7 @@ mod asset;
 mod checksum;
 mod contact;
 mod coupling;
+mod direction;
 mod encode;
 mod error;
 mod friction;
@@ -55,6 +56,7 @@ mod wire;
 pub use asset::Asset;
 pub use contact::{Adhesion, ContactLaw, Drag, Imprint, Relaxation, SpringPoint};
 pub use coupling::Coupling;
+pub use direction::Direction;
 pub use encode::{
     AssetParts, ContactParts, FrictionParts, GridParts, ModelParts, TapParts, encode,
 };

@@ -74,6 +74,12 @@ pub const MAX_VISCOUS_N_S_M2: f32 = 1.0e5;
 pub const MAX_PLOUGH_N_M: f32 = 1.0e4;
 /// Largest pull of adhesion, N.
 pub const MAX_PULL_N: f32 = 100.0;
+/// Largest power along an axis over that across it.
+pub const MAX_POWER_RATIO: f32 = 2.0;
+/// Range of the speed across an axis that a stroke along it sounds like, as a part of its speed.
+pub const SPEED_RATIO: (f32, f32) = (0.125, 2.0);
+/// Range of μ along an axis over μ across it.
+pub const MU_RATIO: (f32, f32) = (0.0625, 4.0);
 /// Largest vibration gain, s²/m.
 pub const MAX_VIB_GAIN_S2_M: f32 = 1_000.0;
 /// Largest effective mass, kg.

@@ -6,8 +6,8 @@ use crate::{
     error::EncodeError,
     friction::Friction,
     header::{
-        CONTACT, ENTRY_LEN, FIXED_LEN, FRICTION, HAPTIC, MAGIC, VERSION_WITH_CONTACT,
-        VERSION_WITHOUT_LAW,
+        ENTRY_LEN, FIXED_LEN, FRICTION, HAPTIC, MAGIC, VERSION_WITH_MORE, VERSION_WITHOUT_LAW,
+        count_haptic,
     },
     wire::Writer,
 };
@@ -37,16 +37,16 @@ pub fn assemble(sections: &[([u8; 4], &[u8])], out: &mut [u8]) -> Result<usize, 
     })?;
     let total_len = assembled_len(sections);
     let table_end = FIXED_LEN + sections.len() * ENTRY_LEN;
-    let contact = sections.iter().any(|(tag, _)| *tag == CONTACT);
+    let haptic = count_haptic(sections.iter().map(|(tag, _)| *tag));
     let haptic_len = sections
         .iter()
-        .take(HAPTIC.len() + usize::from(contact))
+        .take(haptic)
         .fold(table_end, |sum, (_, body)| sum + body.len());
     let mut writer = Writer::new(out, 0);
     writer.bytes(&MAGIC)?;
     let friction = sections.iter().find(|(tag, _)| *tag == FRICTION);
-    writer.u16(if contact {
-        VERSION_WITH_CONTACT
+    writer.u16(if haptic > HAPTIC.len() {
+        VERSION_WITH_MORE
     } else {
         friction.map_or(VERSION_WITHOUT_LAW, |(_, body)| Friction::version_of(body))
     })?;

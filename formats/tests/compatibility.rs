@@ -2,8 +2,8 @@
 
 use crate::common;
 use crate::common::{
-    append_section, falling, put, replace_section, seal_header, section::PROVENANCE, small, span,
-    yielding,
+    Parts, append_section, falling, put, replace_section, ribbed, seal_header, section::PROVENANCE,
+    small, span, yielding,
 };
 use asperity_formats::{Asset, FormatError, VERSION, assemble, assembled_len};
 
@@ -133,38 +133,66 @@ fn a_law_is_never_read_as_part_of_another_version() {
     );
 }
 
-/// The section of the contact law belongs to version 3 and to no other, and stands behind `SURF`.
+/// The sections of a contact law and of a direction belong to version 3 and to no other, and stand behind `SURF` in
+/// this order.
 #[test]
-fn a_contact_law_is_never_skipped() {
+fn a_contact_law_or_a_direction_is_never_skipped() {
     let forged = |mut bytes: Vec<u8>, version: u8| {
         put(&mut bytes, 4, &[version, 0]);
         seal_header(&mut bytes);
         Asset::parse(&bytes).map(drop)
     };
-    let misplaced = FormatError::Section {
-        tag: *b"CONT",
-        reason: "must be there in version 3, and in no earlier one",
+    let misplaced = |tag: &[u8; 4]| FormatError::Section {
+        tag: *tag,
+        reason: "version 3 has CONT, AXIS or both, and no earlier one has either",
     };
-    for (bytes, version) in [
-        (yielding().encode(), 1),
-        (yielding().encode(), 2),
-        (falling().encode(), 3),
-        (small().encode(), 3),
+    let hard = || Parts {
+        contact: None,
+        ..ribbed()
+    };
+    for (parts, version, tag) in [
+        (yielding(), 1, b"CONT"),
+        (yielding(), 2, b"CONT"),
+        (ribbed(), 2, b"CONT"),
+        (hard(), 1, b"AXIS"),
+        (hard(), 2, b"AXIS"),
+        (falling(), 3, b"CONT"),
+        (small(), 3, b"CONT"),
     ] {
-        assert_eq!(forged(bytes, version), Err(misplaced), "{version}");
+        assert_eq!(
+            forged(parts.encode(), version),
+            Err(misplaced(tag)),
+            "{version}"
+        );
     }
-    let mut bytes = yielding().encode();
-    append_section(&mut bytes, b"CONT", &[0; 45]);
-    let twice = FormatError::Section {
-        tag: *b"CONT",
-        reason: "unknown haptic section",
-    };
-    assert_eq!(Asset::parse(&bytes).map(drop), Err(twice));
-    let bytes = yielding().encode();
-    let whole = Asset::parse(&bytes).unwrap();
-    let haptic = Asset::parse_haptic(&bytes[..whole.haptic_len()]).unwrap();
-    assert_eq!(haptic.contact(), whole.contact());
-    assert!(whole.contact().is_some());
+    // Twice, or in the wrong order.
+    for (parts, tag, body) in [
+        (yielding(), b"CONT", &[0; 45][..]),
+        (ribbed(), b"CONT", &[0; 45]),
+        (hard(), b"AXIS", &[0; 28]),
+        (hard(), b"CONT", &[0; 45]),
+    ] {
+        let mut bytes = parts.encode();
+        append_section(&mut bytes, tag, body);
+        let twice = FormatError::Section {
+            tag: *tag,
+            reason: "unknown haptic section",
+        };
+        assert_eq!(Asset::parse(&bytes).map(drop), Err(twice));
+    }
+    for (parts, law, axis) in [
+        (yielding(), true, false),
+        (ribbed(), true, true),
+        (hard(), false, true),
+    ] {
+        let bytes = parts.encode();
+        let whole = Asset::parse(&bytes).unwrap();
+        let haptic = Asset::parse_haptic(&bytes[..whole.haptic_len()]).unwrap();
+        assert_eq!(haptic.contact(), whole.contact());
+        assert_eq!(haptic.direction(), whole.direction());
+        let there = (whole.contact().is_some(), whole.direction().is_some());
+        assert_eq!((whole.version(), there), (3, (law, axis)));
+    }
     let mut parts = yielding();
     parts.law.clear();
     let bytes = parts.encode();
@@ -174,7 +202,7 @@ fn a_contact_law_is_never_skipped() {
 
 #[test]
 fn an_asset_that_is_assembled_of_sections_keeps_its_law_and_its_version() {
-    for parts in [small(), falling(), yielding()] {
+    for parts in [small(), falling(), yielding(), ribbed()] {
         let bytes = parts.encode();
         let asset = Asset::parse(&bytes).unwrap();
         let sections: Vec<_> = (asset.sections())
@@ -188,7 +216,11 @@ fn an_asset_that_is_assembled_of_sections_keeps_its_law_and_its_version() {
 
 #[test]
 fn the_committed_assets_are_what_is_written_today() {
-    for (parts, file) in [(falling(), "law-v2.asp"), (yielding(), "contact-v3.asp")] {
+    for (parts, file) in [
+        (falling(), "law-v2.asp"),
+        (yielding(), "contact-v3.asp"),
+        (ribbed(), "direction-v3.asp"),
+    ] {
         let bytes = parts.encode();
         let path = format!("{}/tests/data/{file}", env!("CARGO_MANIFEST_DIR"));
         if std::env::var_os("ASPERITY_BLESS").is_some() {

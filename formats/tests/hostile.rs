@@ -208,8 +208,17 @@ fn read_all(asset: &Asset<'_>) -> f64 {
         let points = law.points().map(|p| p.depth_m() + p.shape_m());
         points.chain([f64::from(numbers + law.adhesion.stiffness_n_m)])
     });
+    let direction = asset.direction().into_iter().flat_map(|direction| {
+        let numbers = [
+            direction.power_ratio,
+            direction.speed_ratio,
+            direction.mu_forward,
+        ];
+        direction.axis.into_iter().chain(numbers).map(f64::from)
+    });
     let numbers = lsf
         .chain(contact)
+        .chain(direction)
         .chain(taps)
         .chain(anchors)
         .chain(law)

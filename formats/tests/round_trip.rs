@@ -4,8 +4,8 @@
 use crate::common;
 use crate::common::{Parts, full, lattice, small, spec_reader};
 use asperity_formats::{
-    Adhesion, Asset, ContactParts, Coupling, Drag, EncodeError, FormatError, Imprint, LawPoint,
-    Numerator, Relaxation, SpringPoint, Vertex, VertexKind,
+    Adhesion, Asset, ContactParts, Coupling, Direction, Drag, EncodeError, FormatError, Imprint,
+    LawPoint, Numerator, Relaxation, SpringPoint, Vertex, VertexKind,
 };
 use proptest::{collection::vec, prelude::*};
 
@@ -157,11 +157,33 @@ fn contact() -> impl Strategy<Value = Option<(ContactParts<'static>, Vec<SpringP
     proptest::option::of(law)
 }
 
+/// No direction, or any; μ times a ratio is 10 at most.
+fn direction() -> impl Strategy<Value = Option<Direction>> {
+    let axis = (-1.0_f32..1.0, -1.0_f32..1.0, 0.1_f32..1.0);
+    let ratios = (
+        0.0_f32..=2.0,
+        0.125_f32..=2.0,
+        0.0625_f32..=1.0,
+        0.0625_f32..=1.0,
+    );
+    let direction = (axis, ratios).prop_map(|((x, y, z), ratios)| {
+        let length = (x * x + y * y + z * z).sqrt();
+        Direction {
+            axis: [x, y, z].map(|part| part / length),
+            power_ratio: ratios.0,
+            speed_ratio: ratios.1,
+            mu_forward: ratios.2,
+            mu_backward: ratios.3,
+        }
+    });
+    proptest::option::of(direction)
+}
+
 prop_compose! {
     fn parts()(
         grid in grid(), name in name(), traces in traces(),
         rates in (100.0_f32..2e5, 100.0_f32..2e5), mu in 0.0_f32..10.0,
-        anchors in vec((name(), 0.0_f32..10.0, 0.0_f32..=1.0), 0..=16), law in law(), contact in contact(),
+        anchors in vec((name(), 0.0_f32..10.0, 0.0_f32..=1.0), 0..=16), law in law(), more in (contact(), direction()),
         surface in (1e-3_f32..1e5, 0.0_f32..1e3, 0.0_f32..1e3, 0.0_f32..100.0, 1e-3_f32..1e4),
         metadata in any::<(bool, u64, u32, bool)>(), png in vec(any::<u8>(), 0..50), preview in any::<bool>(),
     ) -> Parts {
@@ -187,7 +209,7 @@ prop_compose! {
             effective_mass_kg: surface.3,
             f_max_n: surface.4,
         };
-        parts.contact = contact;
+        (parts.contact, parts.direction) = more;
         let (present, seed, source_crc32, prompt) = metadata;
         parts.provenance = parts.provenance.filter(|_| present).map(|mut provenance| {
             provenance.seed = seed;
@@ -274,6 +296,19 @@ fn as_plain(bytes: &[u8]) -> spec_reader::Plain {
             let spring = law.points().map(|p| (p.depth_m(), p.shape_m()));
             (numbers, spring.collect())
         }),
+        direction: asset.direction().map(|direction| {
+            let [x, y, z] = direction.axis;
+            let (power, speed) = (direction.power_ratio, direction.speed_ratio);
+            [
+                x,
+                y,
+                z,
+                power,
+                speed,
+                direction.mu_forward,
+                direction.mu_backward,
+            ]
+        }),
         provenance: asset.provenance().map(|p| spec_reader::PlainProvenance {
             generator: p.generator.into(),
             source: p.source.into(),
@@ -327,6 +362,7 @@ proptest! {
             let points: Vec<_> = points.iter().map(|p| (p.depth_m(), p.shape_m())).collect();
             prop_assert_eq!(spring, &points);
         }
+        prop_assert_eq!(plain.direction.map(|numbers| numbers[4]), parts.direction.map(|d| d.speed_ratio));
         prop_assert_eq!(&plain.preview_png, &parts.preview_png);
         prop_assert_eq!(plain.provenance.map(|p| p.seed), parts.provenance.map(|p| p.seed));
         for (read, (ar, ma, gain)) in plain.models.iter().zip(&parts.models) {

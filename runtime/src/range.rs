@@ -7,8 +7,9 @@ use crate::{
     arithmetic::{Arithmetic, Fixed, Float},
     config::{Config, ConfigError},
     load_error::LoadError,
+    math::{max, sqrt},
 };
-use asperity_formats::{Asset, Solid};
+use asperity_formats::{Asset, LawPoint, Solid};
 
 /// Checks against the range of an arithmetic.
 pub trait Checked: Arithmetic {
@@ -81,6 +82,8 @@ const FASTEST_GRID_MM_S: f32 = 1000.0;
 const SLOWEST_GRID_MM_S: f32 = 1.0;
 const WEAKEST_GRID_N: f32 = 0.01;
 const LOUDEST_M_S2: f32 = 500.0;
+/// Numbers of this unit end at 8.
+const LARGEST_MU_FACTOR: f32 = 7.99;
 
 fn check_config(config: &Config) -> Result<(), ConfigError> {
     let slowest_hz = SLOWEST_CUTOFF * config.servo_rate_hz;
@@ -162,13 +165,28 @@ fn check_asset(asset: &Asset<'_>) -> Result<(), LoadError> {
     let speeds = (SLOWEST_GRID_MM_S, FASTEST_GRID_MM_S);
     range("grid.max_speed_mm_s", speed, speeds.0, speeds.1)?;
     range("grid.max_force_n", force, WEAKEST_GRID_N, f32::MAX)?;
+    let law = asset.friction().law().into_iter();
+    let factors = law.flat_map(|law| law.points().map(LawPoint::factor));
+    let factor = factors.reduce(max).unwrap_or(1.0);
+    let (level, mu) = asset.direction().map_or((1.0, 1.0), |direction| {
+        let ratio = direction.power_ratio / (direction.speed_ratio * direction.speed_ratio);
+        // The largest factor of the level over all directions.
+        let level = sqrt(1.0 + ratio);
+        (level, max(direction.mu_forward, direction.mu_backward))
+    });
+    range(
+        "friction.law.factor · direction.mu",
+        factor * mu,
+        0.0,
+        LARGEST_MU_FACTOR,
+    )?;
     grid.vertices().try_for_each(|vertex| {
         let gain = grid
             .model(usize::from(vertex.model))
             .map_or(0.0, |model| model.gain);
         range(
             "grid gain·sigma_m_s2",
-            gain * vertex.sigma_m_s2,
+            level * gain * vertex.sigma_m_s2,
             0.0,
             LOUDEST_M_S2,
         )

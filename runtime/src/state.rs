@@ -9,9 +9,9 @@ use crate::{
     },
     render_arithmetic::RenderArithmetic,
     stage::{
-        contact::DistanceField, contact_law::ContactState, friction::FrictionState,
-        passivity::Lowered, sample_gate::GateState, tap::TapState, velocity::VelocityState,
-        vibration::Vibration,
+        contact::DistanceField, contact_law::ContactState, direction::Heading,
+        friction::FrictionState, passivity::Lowered, sample_gate::GateState, tap::TapState,
+        velocity::VelocityState, vibration::Vibration,
     },
 };
 use core::mem::MaybeUninit;
@@ -26,6 +26,8 @@ pub struct State<A: RenderArithmetic = Float> {
     pub(crate) velocity: VelocityState<A>,
     /// Direction t̂ of the last motion in the tangent plane.
     pub(crate) direction: StoredVector<A, Fraction>,
+    /// What it makes of speed, level and μ, where the texture has an axis.
+    pub(crate) heading: Heading<A>,
     pub(crate) tap: TapState<A>,
     pub(crate) friction: FrictionState<A>,
     /// What the surface remembers, where it gives way.
@@ -47,6 +49,7 @@ impl<A: RenderArithmetic> State<A> {
             gate: GateState::new(),
             velocity: VelocityState::REST,
             direction: Vector::whole([1, 0, 0]).into(),
+            heading: Heading::none(),
             tap: TapState::IDLE,
             friction: FrictionState::default(),
             contact: ContactState::UNTOUCHED,
@@ -75,6 +78,7 @@ impl<A: RenderArithmetic> State<A> {
         let contact = field.step(self.gate.position());
         self.tap.cross(contact.distance);
         self.contact = ContactState::UNTOUCHED;
+        self.heading = Heading::none();
     }
 
     /// Changes to another texture on the same solid.

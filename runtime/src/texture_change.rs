@@ -12,7 +12,7 @@ use crate::{
     events::Flags,
     quantity::{
         Quantity,
-        unit::{Fraction, VibrationAcceleration},
+        unit::{DirectionFactor, Fraction, VibrationAcceleration},
     },
     render_arithmetic::RenderArithmetic,
     renderer::Renderer,
@@ -20,6 +20,7 @@ use crate::{
     stage::{
         contact::DistanceField,
         contact_law::ContactState,
+        direction::Heading,
         force_crossing::ForceCrossing,
         friction_law::FactorCrossing,
         recursion::{Recursion, VibrationSample},
@@ -98,6 +99,7 @@ impl<A: RenderArithmetic> VibrationCrossing<A> {
         vibration: &mut Vibration<A>,
         texture: &Texture<S, A>,
         fraction: impl Fn() -> Quantity<A, Fraction>,
+        gain: impl Fn() -> Quantity<A, DirectionFactor>,
     ) {
         let ticks = texture.ticks_per_sample();
         if !vibration.is_on(texture.id()) {
@@ -122,7 +124,7 @@ impl<A: RenderArithmetic> VibrationCrossing<A> {
             self.recursion = texture.recursion();
             self.changing = false;
         }
-        vibration.prepare(texture, fraction);
+        vibration.prepare(texture, fraction, gain);
     }
 
     /// [`Vibration::sound`], plus the vibration that fades beside it.
@@ -186,25 +188,23 @@ impl<A: RenderArithmetic> Renderer<A> {
         let following = || self.following.of(&texture.plan);
         if begins {
             state.contact = ContactState::UNTOUCHED;
+            state.heading = Heading::none();
             crossing.forces.begin();
             crossing.factor.begin();
         }
+        let gain = || state.heading.level;
         crossing
             .vibration
-            .prepare(&mut state.vibration, texture, following);
+            .prepare(&mut state.vibration, texture, following, gain);
         let upsampler = texture.upsampler();
         let (factor, forces) = (&mut crossing.factor, &mut crossing.forces);
-        let mu = |speed| factor.of(coupling.mu, &texture.law, speed, fraction);
+        let mu = |of_texture| factor.of(coupling.mu, of_texture, fraction);
         let mix = |force| forces.step(force, texture.contact_law().is_some(), fraction);
         let fading = &mut crossing.vibration;
         let sound =
             |vibration: &mut Vibration<A>, sounding| fading.sound(vibration, upsampler, sounding);
         let output = self.force(touched, state, sample, mu, mix, sound);
-        state.vibration.query(
-            texture,
-            Quantity(output.speed_mm_s) + state.contact.crunch,
-            Quantity(output.normal_force_n),
-        );
+        Self::query(texture, state, &output);
         crossing.touching = output.flags.contains(Flags::CONTACT);
         output
     }

@@ -20,8 +20,10 @@ use crate::{
     coupling::Coupling,
     events::Flags,
     quantity::{
-        Quantity,
-        unit::{FrictionCoefficient, MillimetrePerMetre, MillimetrePerSecond},
+        Quantity, Vector,
+        unit::{
+            Fraction, FrictionCoefficient, FrictionFactor, MillimetrePerMetre, MillimetrePerSecond,
+        },
     },
     render_arithmetic::RenderArithmetic,
     renderer::Renderer,
@@ -58,7 +60,8 @@ impl<A: RenderArithmetic> Renderer<A> {
             self.change_texture(texture, state);
         }
         let fraction = || self.following.of(&texture.plan);
-        state.vibration.prepare(texture, fraction);
+        let gain = || state.heading.level;
+        state.vibration.prepare(texture, fraction, gain);
         let touched = Touched {
             texture,
             field: &self.field,
@@ -68,17 +71,29 @@ impl<A: RenderArithmetic> Renderer<A> {
         let sound = |vibration: &mut Vibration<A>, sounding| {
             vibration.sound(recursion, upsampler, sounding)
         };
-        let mu = |speed| texture.friction_at(speed);
+        let across = texture.coupling.mu;
+        let mu = |factor: Option<_>| factor.map_or(across, |factor| across * factor);
         let output = self.force(touched, state, sample, mu, |force| force, sound);
         if state.vibration.takes_query() {
             self.lower(&texture.coupling, texture.contact_law(), state);
         }
+        Self::query(texture, state, &output);
+        output
+    }
+
+    /// Ends a tick: asks for the model of a stroke, where a query is due.
+    #[inline(always)]
+    pub(crate) fn query<S: Capacity>(
+        texture: &Texture<S, A>,
+        state: &mut State<A>,
+        output: &Output<A>,
+    ) {
+        let speed = Quantity::<A, MillimetrePerSecond>(output.speed_mm_s) * state.heading.speed;
         state.vibration.query(
             texture,
-            Quantity(output.speed_mm_s) + state.contact.crunch,
+            speed + state.contact.crunch,
             Quantity(output.normal_force_n),
         );
-        output
     }
 
     /// [`State::change_texture`], and what the device bears of the new one.
@@ -115,7 +130,30 @@ impl<A: RenderArithmetic> Renderer<A> {
         )
     }
 
-    /// The force equation on what is touched. `mu` gives μ at a speed; `mix` adds what remains of
+    /// The factor of μ at a speed and in the direction of the stroke, where μ depends on either.
+    #[inline(always)]
+    fn friction_factor<S: Capacity>(
+        &self,
+        texture: &Texture<S, A>,
+        state: &mut State<A>,
+        speed: Quantity<A, MillimetrePerSecond>,
+        normal: Vector<A, Fraction>,
+    ) -> Option<Quantity<A, FrictionFactor>> {
+        let Some(axis) = texture.axis() else {
+            return Some(texture.law.factor(speed));
+        };
+        if state.vibration.takes_query() {
+            axis.turn(&mut state.heading, state.direction.get(), normal);
+        }
+        let in_direction = state.heading.follow(self.coupling_fraction);
+        Some(if texture.law.is_some() {
+            texture.law.factor(speed) * in_direction
+        } else {
+            Quantity::<A, FrictionFactor>::whole(1) * in_direction
+        })
+    }
+
+    /// The force equation on what is touched. `mu` gives μ with its factor; `mix` adds what remains of
     /// another surface; `sound` steps the vibration, and its flag says whether it may be heard.
     #[inline(always)]
     pub(crate) fn force<S: Capacity>(
@@ -123,7 +161,7 @@ impl<A: RenderArithmetic> Renderer<A> {
         touched: Touched<'_, S, A>,
         state: &mut State<A>,
         sample: &Sample<A>,
-        mu: impl FnOnce(Quantity<A, MillimetrePerSecond>) -> Quantity<A, FrictionCoefficient>,
+        mu: impl FnOnce(Option<Quantity<A, FrictionFactor>>) -> Quantity<A, FrictionCoefficient>,
         mix: impl FnOnce(SurfaceForce<A>) -> SurfaceForce<A>,
         sound: impl FnOnce(&mut Vibration<A>, bool) -> VibrationSample<A>,
     ) -> Output<A> {
@@ -151,7 +189,11 @@ impl<A: RenderArithmetic> Renderer<A> {
         );
         let slide = velocity.slide(normal, &mut state.direction);
         let speed = slide * Quantity::<A, MillimetrePerMetre>::whole(1000);
-        let mu = mu(speed);
+        let mu = mu(if texture.mu_varies() {
+            self.friction_factor(texture, state, speed, normal)
+        } else {
+            None
+        });
 
         // F_n n̂: the wall, or a contact law in its place. Its elastic part is the load.
         let surface = if let Some(law) = texture.contact_law() {

@@ -9,7 +9,7 @@ use asperity_runtime::{
 use asperity_tests::{
     draw::Draw,
     oracle::{Oracle, Tick},
-    texture::{HostSlot, TextureKind, random, random_contact, random_law},
+    texture::{HostSlot, TextureKind, random, random_contact, random_direction, random_law},
     trajectory::{strokes, strokes_at},
 };
 
@@ -212,6 +212,38 @@ fn friction_that_depends_on_speed() {
     }
 }
 
+/// Ribs, grains and naps along any axis, on each solid, with a law of friction and without, at two rates.
+#[test]
+fn textures_with_a_direction() {
+    let mut draw = Draw::new(95);
+    for seed in 95..107 {
+        let mut texture = random(seed, TextureKind::nyquist(8));
+        texture.direction = Some(random_direction(&mut draw));
+        if seed % 2 == 0 {
+            texture.law = random_law(&mut draw, 200.0, 2.0);
+        }
+        let bytes = texture.encode();
+        let rate_hz = [1000.0, 4000.0][usize::from(seed % 4 == 3)];
+        let config = Config {
+            solid: solids()[seed as usize % 3],
+            servo_rate_hz: rate_hz,
+            ..Config::default()
+        };
+        let samples = fresh(strokes_at(rate_hz.into(), seed, 10_000));
+        // Speed decides on the law, and rounding on the sense of a stroke across the axis.
+        let worst = compare(&bytes, &config, seed, &samples).map(|(worst, within)| {
+            let within = Tolerance {
+                vib: 3.0 * within.vib,
+                friction_n: 5.0 * within.friction_n + 2e-3,
+                force_n: within.force_n + 3e-3,
+                ..within
+            };
+            (worst, within)
+        });
+        assert_close(&worst, rate_hz, &format!("{:?}", texture.direction));
+    }
+}
+
 /// Laws of every mixture of parts, on strokes, taps, held samples and missed periods.
 #[test]
 fn materials_that_give_way() {
@@ -270,9 +302,9 @@ fn materials_that_give_way() {
     assert!(parts.iter().all(|&count| count > 5), "{parts:?}");
 }
 
-#[test]
-fn spheres_boxes_tilted_planes_and_the_other_axis() {
-    let solids = [
+/// A sphere, a box and a tilted plane.
+fn solids() -> [Solid; 3] {
+    [
         Solid::Sphere {
             center_m: [0.0, 0.0, -0.05],
             radius_m: 0.05,
@@ -285,9 +317,13 @@ fn spheres_boxes_tilted_planes_and_the_other_axis() {
             point_m: [0.0, 0.001, 0.0],
             normal: [0.3, -0.4, 2.0],
         },
-    ];
+    ]
+}
+
+#[test]
+fn spheres_boxes_tilted_planes_and_the_other_axis() {
     let bytes = random(7, TextureKind::nyquist(20)).encode();
-    for (seed, solid) in (20..).zip(solids) {
+    for (seed, solid) in (20..).zip(solids()) {
         for vibration_axis in [VibrationAxis::Tangent, VibrationAxis::Binormal] {
             let config = Config {
                 solid,

@@ -2,8 +2,8 @@
 
 use crate::{draw::Draw, stability};
 use asperity_formats::{
-    Adhesion, AssetParts, ContactParts, Coupling, Drag, FrictionParts, GridParts, Imprint,
-    LawPoint, LsfCode, ModelParts, Numerator, Relaxation, SpringPoint, TapParts, Vertex,
+    Adhesion, AssetParts, ContactParts, Coupling, Direction, Drag, FrictionParts, GridParts,
+    Imprint, LawPoint, LsfCode, ModelParts, Numerator, Relaxation, SpringPoint, TapParts, Vertex,
     VertexKind, encode,
 };
 
@@ -46,6 +46,8 @@ pub struct Texture {
     pub coupling: Coupling,
     /// Contact law, or none.
     pub contact: Option<Contact>,
+    /// Direction, or none.
+    pub direction: Option<Direction>,
 }
 
 /// A contact law in parts.
@@ -204,6 +206,7 @@ pub fn random(seed: u64, kind: TextureKind) -> Texture {
             f_max_n: 3.3,
         },
         contact: None,
+        direction: None,
     }
 }
 
@@ -220,6 +223,21 @@ pub fn random_law(draw: &mut Draw, fastest_mm_s: f64, highest: f64) -> Vec<LawPo
     points
         .filter_map(|speed| LawPoint::nearest(speed, draw.range(0.0, highest)))
         .collect()
+}
+
+/// Any direction; μ times a ratio is at most 4 times μ.
+#[must_use]
+pub fn random_direction(draw: &mut Draw) -> Direction {
+    let axis: [f64; 3] = std::array::from_fn(|_| draw.range(-1.0, 1.0));
+    let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let mut number = |from, to| draw.range(from, to) as f32;
+    Direction {
+        axis: axis.map(|x| (x / length) as f32),
+        power_ratio: number(0.0, 1.5),
+        speed_ratio: number(0.125, 2.0),
+        mu_forward: number(0.25, 2.0),
+        mu_backward: number(0.25, 2.0),
+    }
 }
 
 /// A contact law with some of its parts, whose stiffnesses a default device bears on a wall of 400 N/m.
@@ -343,6 +361,7 @@ impl Texture {
                 adhesion: contact.adhesion,
                 spring: &spring,
             }),
+            direction: self.direction,
             provenance: None,
             preview_png: None,
         };

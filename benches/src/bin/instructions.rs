@@ -15,7 +15,7 @@ use asperity_benches::{
     motion::Motion,
     queries::queries,
     reference::Reference,
-    texture::{texture, texture_with_contact},
+    texture::{texture, texture_with_contact, texture_with_direction},
 };
 use asperity_formats::{Asset, Numerator};
 use asperity_tests::{
@@ -39,25 +39,28 @@ const STROKE: usize = 2;
 const BEYOND: usize = 3;
 /// Instructions that the mean tick of a motion is to take at most.
 const GOAL: u64 = 700;
-/// Every texture: label, AR order, numerator. The last ones have a contact law.
-const TEXTURES: [(&str, usize, Numerator); 6] = [
+/// Every texture: label, AR order, numerator. Behind the walls two have a contact law, and the last one ribs.
+const TEXTURES: [(&str, usize, Numerator); 7] = [
     ("order 20, ARMA", 20, Numerator::Lsf),
     ("order 20, Nyquist zero", 20, Numerator::Nyquist),
     ("order 20, AR", 20, Numerator::None),
     ("order 4, Nyquist zero", 4, Numerator::Nyquist),
     ("order 20, ARMA, contact", 20, Numerator::Lsf),
     ("order 4, zero, contact", 4, Numerator::Nyquist),
+    ("order 20, ARMA, ribs", 20, Numerator::Lsf),
 ];
 /// How many textures are walls.
 const WALLS: usize = 4;
+/// The texture with ribs.
+const RIBS: usize = TEXTURES.len() - 1;
 
 /// The bytes of a texture.
 fn bytes_of(index: usize) -> Vec<u8> {
     let (_, order, numerator) = TEXTURES[index];
-    if index < WALLS {
-        texture(order, numerator)
-    } else {
-        texture_with_contact(order, numerator)
+    match index {
+        ..WALLS => texture(order, numerator),
+        RIBS => texture_with_direction(order, numerator),
+        _ => texture_with_contact(order, numerator),
     }
 }
 

@@ -5,9 +5,9 @@
 pub mod spec_reader;
 
 use asperity_formats::{
-    Adhesion, Anchor, AssetParts, ContactParts, Coupling, Drag, EncodeError, FrictionParts,
-    GridParts, Imprint, LawPoint, LsfCode, ModelParts, Numerator, Provenance, Relaxation,
-    SpringPoint, TapParts, Vertex, VertexKind, encode,
+    Adhesion, Anchor, AssetParts, ContactParts, Coupling, Direction, Drag, EncodeError,
+    FrictionParts, GridParts, Imprint, LawPoint, LsfCode, ModelParts, Numerator, Provenance,
+    Relaxation, SpringPoint, TapParts, Vertex, VertexKind, encode,
 };
 
 /// LSF codes, MA LSF codes and gain.
@@ -30,6 +30,7 @@ pub struct Parts {
     pub coupling: Coupling,
     /// Numbers and spring of the contact law.
     pub contact: Option<(ContactParts<'static>, Vec<SpringPoint>)>,
+    pub direction: Option<Direction>,
     pub provenance: Option<Provenance<'static>>,
     pub preview_png: Option<Vec<u8>>,
 }
@@ -45,6 +46,7 @@ pub mod section {
     pub const SURFACE: usize = 4;
     /// In version 3.
     pub const CONTACT: usize = 5;
+    pub const AXIS: usize = 6;
     pub const PROVENANCE: usize = 5;
     pub const PREVIEW: usize = 6;
 }
@@ -89,6 +91,7 @@ pub fn small() -> Parts {
             f_max_n: 3.0,
         },
         contact: None,
+        direction: None,
         provenance: Some(Provenance {
             generator: "hand",
             source: "",
@@ -144,6 +147,21 @@ pub fn yielding() -> Parts {
         name: "Cork, chewed".into(),
         contact: Some((numbers, spring)),
         ..falling()
+    }
+}
+
+/// [`yielding`] with ribs, hence of version 3, too.
+pub fn ribbed() -> Parts {
+    Parts {
+        name: "Cork, ribbed".into(),
+        direction: Some(Direction {
+            axis: [0.0, 0.8, -0.6],
+            power_ratio: 0.25,
+            speed_ratio: 0.5,
+            mu_forward: 0.75,
+            mu_backward: 1.25,
+        }),
+        ..yielding()
     }
 }
 
@@ -255,6 +273,7 @@ impl Parts {
                 .contact
                 .as_ref()
                 .map(|(numbers, spring)| ContactParts { spring, ..*numbers }),
+            direction: self.direction,
             provenance: self.provenance,
             preview_png: self.preview_png.as_deref(),
         };
@@ -347,8 +366,10 @@ pub fn restate(asset: &mut [u8]) {
         let (start, len) = span(asset, sections - 1);
         (start + len) as u32
     };
-    let contact = asset.get(20 + 12 * 5..20 + 12 * 5 + 4) == Some(b"CONT");
-    let haptic = end(5 + usize::from(contact));
+    let tag = |at: usize| asset.get(20 + 12 * at..20 + 12 * at + 4);
+    let contact = usize::from(tag(5) == Some(b"CONT"));
+    let axis = usize::from(tag(5 + contact) == Some(b"AXIS"));
+    let haptic = end(5 + contact + axis);
     let total = end(usize::from(asset[6]));
     put(asset, 8, &total.to_le_bytes());
     put(asset, 12, &haptic.to_le_bytes());

@@ -24,6 +24,8 @@ pub struct Plain {
     pub coupling: [f32; 5],
     /// The numbers of the contact law, in their order, and depth and shape of its spring, m.
     pub contact: Option<PlainContact>,
+    /// Axis, ratios of power and speed, ratios of μ towards the axis and against it.
+    pub direction: Option<[f32; 7]>,
     pub provenance: Option<PlainProvenance>,
     pub preview_png: Option<Vec<u8>>,
 }
@@ -195,6 +197,7 @@ pub fn read(asset: &[u8]) -> Plain {
                 .collect();
             (numbers, spring)
         }),
+        direction: behind(b"AXIS").map(|mut axis| std::array::from_fn(|_| axis.f32())),
         provenance: behind(b"prov").map(|mut prov| PlainProvenance {
             generator: prov.postcard_text(),
             source: prov.postcard_text(),

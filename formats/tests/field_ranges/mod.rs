@@ -6,7 +6,7 @@ mod others;
 
 use crate::common::{
     falling, put, replace_section, seal, seal_header,
-    section::{CONTACT, FRICTION, GRID, NAME, PREVIEW, PROVENANCE, SURFACE, TAPS},
+    section::{AXIS, CONTACT, FRICTION, GRID, NAME, PREVIEW, PROVENANCE, SURFACE, TAPS},
     small, span, yielding,
 };
 use asperity_formats::{Asset, FormatError};

@@ -1,6 +1,8 @@
 //! Fields outside the grid: taps, friction, wall and gains, texts, provenance, preview, header.
 
 use super::*;
+use crate::common::ribbed;
+use asperity_formats::{Direction, EncodeError};
 
 #[test]
 fn numbers_of_the_tap_bank() {
@@ -360,15 +362,82 @@ fn fields_of_the_header() {
     );
 }
 
-/// Patches the contact law of [`yielding`], recomputes the CRCs and checks both readers.
-fn rejected_contact(at: usize, piece: &[u8], expect: &Expect) {
-    let mut bytes = yielding().encode();
-    let (start, _) = span(&bytes, CONTACT);
+/// Patches a section of [`ribbed`], recomputes the CRCs and checks both readers.
+fn rejected_section(section: usize, at: usize, piece: &[u8], expect: &Expect) {
+    let mut bytes = ribbed().encode();
+    let (start, _) = span(&bytes, section);
     put(&mut bytes, start + at, piece);
     seal(&mut bytes);
-    let case = format!("byte {at} of the contact law = {piece:02x?}");
+    let case = format!("byte {at} of section {section} = {piece:02x?}");
     check(Asset::parse(&bytes).expect_err(&case), expect, &case);
     check(Asset::parse_haptic(&bytes).expect_err(&case), expect, &case);
+}
+
+fn rejected_contact(at: usize, piece: &[u8], expect: &Expect) {
+    rejected_section(CONTACT, at, piece, expect);
+}
+
+#[test]
+fn the_direction() {
+    let rejected = |at: usize, value: f32, expect: &Expect| {
+        rejected_section(AXIS, at, &value.to_le_bytes(), expect);
+    };
+    for (at, field, least, most) in [
+        (12, "direction.power_ratio", 0.0_f32, 2.0_f32),
+        (16, "direction.speed_ratio", 0.125, 2.0),
+        (20, "direction.mu_forward", 0.0625, 4.0),
+        (24, "direction.mu_backward", 0.0625, 4.0),
+    ] {
+        let below = if least > 0.0 {
+            least.next_down()
+        } else {
+            -1e-30
+        };
+        for value in [below, most.next_up(), f32::NAN, f32::INFINITY] {
+            rejected(at, value, &Invalid(field, 0, value.into()));
+        }
+    }
+    for (part, at) in [0, 4, 8].into_iter().enumerate() {
+        for value in [1.002, -1.002, f32::NAN, f32::NEG_INFINITY] {
+            rejected(
+                at,
+                value,
+                &Invalid("direction.axis", part as u32, value.into()),
+            );
+        }
+    }
+    // The axis is (0, 0.8, −0.6).
+    for (at, value) in [(0, 0.011_f32), (4, 0.8001), (8, 0.0)] {
+        let mut axis = [0.0, 0.8_f32, -0.6];
+        axis[at / 4] = value;
+        let square = axis.iter().fold(0.0, |sum, x| sum + x * x);
+        rejected(at, value, &Invalid("direction.axis", 0, square.into()));
+    }
+    // The law goes up to 1.5 times μ.
+    for (mu, most) in [(5.0, 10.0 / 7.5), (0.5, 4.0)] {
+        let grips = |mu_backward| {
+            let mut parts = ribbed();
+            parts.mu = mu;
+            parts.direction = parts.direction.map(|direction| Direction {
+                mu_backward,
+                ..direction
+            });
+            parts.encode_into(1 << 17)
+        };
+        assert!(grips(0.999 * most).is_ok());
+        let beyond = 1.001 * most;
+        let named = FormatError::Invalid {
+            field: "direction.mu_backward",
+            index: 0,
+            value: f64::from(beyond),
+            rule: if mu > 1.0 {
+                "μ times the ratio must be 10 at most"
+            } else {
+                "0.0625 to 4"
+            },
+        };
+        assert_eq!(grips(beyond), Err(EncodeError::Rejected(named)));
+    }
 }
 
 #[test]

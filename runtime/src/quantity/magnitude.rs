@@ -9,7 +9,7 @@ mod float;
 use super::{
     product::Times,
     scalar::{Quantity, Raw},
-    unit::{Fraction, Unit},
+    unit::{DirectionFactor, Fraction, Unit},
     vector::Vector,
 };
 use crate::arithmetic::{Arithmetic, Cut, Point};
@@ -26,6 +26,9 @@ pub trait Magnitudes: Arithmetic {
 
     /// The square of the length of the first three.
     fn square<F: Point>(v: Self::Four<F>) -> Self::Square;
+
+    /// √a for a ≥ 0.
+    fn root<F: Point>(a: Self::Scalar<F>) -> Self::Scalar<F>;
 
     /// Returns true if the length is above a nanometre or, in fixed point, above zero.
     fn is_some(square: Self::Square) -> bool;
@@ -118,6 +121,15 @@ impl<A: Magnitudes, U: Unit> Magnitude<A, U> {
     #[must_use]
     pub fn divides(self, reach: Quantity<A, U>) -> Quantity<A, Fraction> {
         Quantity(A::ratio::<U::Point>(reach.0, self.0))
+    }
+}
+
+impl<A: Magnitudes> Quantity<A, DirectionFactor> {
+    /// The square root of a factor that is not negative.
+    #[inline(always)]
+    #[must_use]
+    pub(crate) fn root(self) -> Self {
+        Self(A::root(self.0))
     }
 }
 

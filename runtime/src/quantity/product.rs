@@ -55,6 +55,7 @@ products! {
     MetrePerSecond * Second = Metre, at most 1.0;
     FrictionCoefficient * FrictionFactor = FrictionCoefficient, at most 10.0;
     FrictionCoefficient * Newton = Newton;
+    FrictionFactor * DirectionFactor = FrictionFactor;
     Newton * MetrePerNewton = Metre, at most 1.0;
     BristleNewtonPerMetre * Metre = Newton, at most 32_000.0;
     SecondSquaredPerMetre * Newton = Kilogram, at most 127.0;
@@ -66,6 +67,10 @@ products! {
     Metre * Count = WideMetre;
     WideMetre * Hertz = MetrePerSecond, at most 100.0;
     MetrePerSecond * Ratio = MetrePerSecond;
+    // Direction.
+    DirectionFactor * DirectionFactor = DirectionFactor;
+    MillimetrePerSecond * DirectionFactor = MillimetrePerSecond;
+    ExcitationLevel * DirectionFactor = ExcitationLevel;
     // The model and its samples.
     Coordinate * Slope = Weight, at most FARTHEST_WEIGHT;
     Weight * Fraction = Fraction;
@@ -90,4 +95,6 @@ quotients! {
     MetrePerSecond / MetrePerSecond = Fraction;
     Count / Count = Ratio;
     Weight / Weight = Fraction;
+    Fraction / Fraction = DirectionFactor;
+    DirectionFactor / DirectionFactor = DirectionFactor;
 }

@@ -7,7 +7,7 @@
 
 use crate::arithmetic::Point;
 use core::fmt::Debug;
-use fixed::types::extra::{U10, U12, U15, U16, U19, U20, U22, U24, U25, U28, U30};
+use fixed::types::extra::{U10, U12, U15, U16, U19, U20, U22, U24, U25, U26, U28, U30};
 
 /// The unit of a quantity.
 pub trait Unit: Copy + Debug + Default + PartialEq + 'static {
@@ -51,6 +51,7 @@ units! {
     SecondSquaredPerMetre    U20 "Gain of the vibration before F_max, s²/m: ±2,048, 10⁻⁶.";
     FrictionCoefficient      U20 "Coefficient of kinetic friction μ: ±2,048, 10⁻⁶.";
     FrictionFactor           U28 "Factor of μ at a speed: ±8, 4·10⁻⁹.";
+    DirectionFactor          U26 "Factors of speed, level and μ in a direction, and squares of its sine: ±32, 1.5·10⁻⁸.";
     VibrationAcceleration    U16 "Samples of the vibration, m/s²: ±32,768 m/s², 15 µm/s².";
     TapAcceleration          U10 "Samples of a tap, m/s²: ±2·10⁶ m/s², 1 mm/s².";
     ExcitationLevel          U20 "gain·σ, m/s²: ±2,048 m/s², 1 µm/s².";

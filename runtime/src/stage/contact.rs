@@ -16,7 +16,7 @@ use asperity_formats::Solid;
 
 /// Components of a normal are whole multiples of this, 2⁻²², so that their products with small motions
 /// are normal floats.
-const FLATTEST: f32 = f32::from_bits((127 - 22) << 23);
+pub(crate) const FLATTEST: f32 = f32::from_bits((127 - 22) << 23);
 
 /// The signed distance from a solid.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -53,28 +53,18 @@ impl FrictionLaw {
         self.0.is_some()
     }
 
-    /// μ(v) where μ is `mu`. Most textures have no law, and pay for one test.
-    #[inline(always)]
-    pub(crate) fn of<A: FactorLookup>(
-        &self,
-        mu: Quantity<A, FrictionCoefficient>,
-        speed: Quantity<A, MillimetrePerSecond>,
-    ) -> Quantity<A, FrictionCoefficient> {
-        if self.is_some() {
-            mu * self.factor(speed)
-        } else {
-            mu
-        }
-    }
-
-    /// The factor at a speed.
+    /// The factor at a speed; 1 without a law.
     #[cold]
     #[inline(never)]
-    fn factor<A: FactorLookup>(
+    pub(crate) fn factor<A: FactorLookup>(
         &self,
         speed: Quantity<A, MillimetrePerSecond>,
     ) -> Quantity<A, FrictionFactor> {
-        A::factor(self.0.at(A::fine_speed(speed)))
+        if self.is_some() {
+            A::factor(self.0.at(A::fine_speed(speed)))
+        } else {
+            Quantity::whole(1)
+        }
     }
 }
 
@@ -111,17 +101,16 @@ impl<A: Arithmetic> FactorCrossing<A> {
 }
 
 impl<A: FactorLookup> FactorCrossing<A> {
-    /// μ at a speed where μ is `mu`; a tick goes a `fraction` of the way to the factor of `law`.
+    /// μ where the texture says `mu`; a tick goes a `fraction` of the way to its `factor`, if it has one.
     #[inline(always)]
     pub(crate) fn of(
         &mut self,
         mu: Quantity<A, FrictionCoefficient>,
-        law: &FrictionLaw,
-        speed: Quantity<A, MillimetrePerSecond>,
+        factor: Option<Quantity<A, FrictionFactor>>,
         fraction: Quantity<A, Fraction>,
     ) -> Quantity<A, FrictionCoefficient> {
-        if law.is_some() | !matches!(self.way, Way::Arrived) {
-            mu * self.step(law, speed, fraction)
+        if factor.is_some() | !matches!(self.way, Way::Arrived) {
+            mu * self.step(factor, fraction)
         } else {
             mu
         }
@@ -131,16 +120,11 @@ impl<A: FactorLookup> FactorCrossing<A> {
     #[inline(never)]
     fn step(
         &mut self,
-        law: &FrictionLaw,
-        speed: Quantity<A, MillimetrePerSecond>,
+        factor: Option<Quantity<A, FrictionFactor>>,
         fraction: Quantity<A, Fraction>,
     ) -> Quantity<A, FrictionFactor> {
         let one = Quantity::whole(1);
-        let factor = if law.is_some() {
-            law.factor(speed)
-        } else {
-            one
-        };
+        let factor = factor.unwrap_or(one);
         let before = match self.way {
             Way::Arrived => return self.arrive(factor),
             Way::Begun => self.rendered + one - factor,
@@ -316,7 +300,8 @@ mod tests {
             let speed = Quantity::<A, MillimetrePerSecond>::of(50.0);
             let mut crossing = FactorCrossing::<A>::START;
             let step = |crossing: &mut FactorCrossing<A>, law: &FrictionLaw, fraction: f32| {
-                let mu = crossing.of(Quantity::of(0.5), law, speed, Quantity::of(fraction));
+                let factor = law.is_some().then(|| law.factor(speed));
+                let mu = crossing.of(Quantity::of(0.5), factor, Quantity::of(fraction));
                 f64::from(mu.value()) / 0.5
             };
             // Without a change a law acts at once, and 1 where there is none.

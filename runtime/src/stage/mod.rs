@@ -6,6 +6,7 @@
 
 pub mod contact;
 pub mod contact_law;
+pub(crate) mod direction;
 pub mod excitation;
 pub(crate) mod force_crossing;
 pub mod friction;

@@ -20,7 +20,7 @@ use crate::{
     },
     quantity::{
         Quantity,
-        unit::{Fraction, MillimetrePerSecond, Newton, VibrationAcceleration},
+        unit::{DirectionFactor, Fraction, MillimetrePerSecond, Newton, VibrationAcceleration},
     },
     texture::Texture,
     update::{cycle::Cycle, follower::Follower, onset::Onset, plan::Plan},
@@ -147,22 +147,24 @@ impl<A: WeightSearch + RowMixture + SectionProduct + GaussianCubic + InnerProduc
         if !self.is_on(texture.id()) {
             self.change_texture(texture.id());
         }
-        self.prepare(texture, || fraction);
+        self.prepare(texture, || fraction, || Quantity::whole(1));
         let sounded = self.sound(texture.recursion(), texture.upsampler(), sounding);
         self.query(texture, speed, force);
         sounded
     }
 
-    /// Begins a tick on the texture of [`Vibration::is_on`]: does its slice of the cycle.
+    /// Begins a tick on the texture of [`Vibration::is_on`]: does its slice of the cycle. The level is
+    /// `gain` times that of the grid.
     #[inline(always)]
     pub(crate) fn prepare<S: Capacity>(
         &mut self,
         texture: &Texture<S, A>,
         fraction: impl Fn() -> Quantity<A, Fraction>,
+        gain: impl Fn() -> Quantity<A, DirectionFactor>,
     ) {
         let (onset, model) = (&mut self.onset, &mut self.model);
         self.follower
-            .step(&texture.models, &texture.plan, fraction, onset, model);
+            .step(&texture.models, &texture.plan, fraction, gain, onset, model);
     }
 
     /// The next output; `recursion` and `upsampler` belong to the texture at work.

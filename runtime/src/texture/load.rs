@@ -100,6 +100,9 @@ impl<S: Capacity, A: RenderArithmetic> Texture<S, A> {
         self.contact
             .load(asset.contact(), self.upsampler.servo_rate_hz());
         self.gives_way = asset.contact().is_some();
+        self.axis.load(asset.direction());
+        self.has_axis = asset.direction().is_some();
+        self.mu_varies = self.has_axis || asset.friction().law().is_some();
         self.recursion = Recursion::new(grid.ar_order(), grid.ma_order());
         self.load_models(grid);
         self.plan = Plan::new(&self.models, ticks);

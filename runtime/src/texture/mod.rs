@@ -18,10 +18,11 @@ use crate::{
     },
     quantity::{
         Quantity,
-        unit::{FrictionCoefficient, MillimetrePerSecond, Newton},
+        unit::{MillimetrePerSecond, Newton},
     },
     stage::{
         contact_law::ContactLaw,
+        direction::Axis,
         friction_law::{FactorLookup, FrictionLaw},
         recursion::{InnerProduct, Recursion},
         tap::bank::TapBank,
@@ -46,6 +47,11 @@ pub struct Texture<S: Capacity = HostCapacities, A: WeightSearch = Float> {
     contact: ContactLaw<A>,
     /// True if there is a contact law; an option would take four bytes.
     gives_way: bool,
+    axis: Axis<A>,
+    /// True if there is an axis.
+    has_axis: bool,
+    /// True if μ depends on the speed or the direction of a stroke.
+    mu_varies: bool,
     id: u32,
     recursion: Recursion,
     upsampler: Upsampler<A>,
@@ -73,6 +79,9 @@ impl<S: Capacity, A: WeightSearch + RowMixture + SectionProduct + InnerProduct> 
         law: FrictionLaw::NONE,
         contact: ContactLaw::NONE,
         gives_way: false,
+        axis: Axis::NONE,
+        has_axis: false,
+        mu_varies: false,
         id: 0,
         recursion: Recursion::new(0, 0),
         upsampler: Upsampler::NONE,
@@ -103,6 +112,9 @@ impl<S: Capacity, A: WeightSearch + RowMixture + SectionProduct + InnerProduct> 
         self.law = FrictionLaw::NONE;
         self.contact = ContactLaw::NONE;
         self.gives_way = false;
+        self.axis = Axis::NONE;
+        self.has_axis = false;
+        self.mu_varies = false;
         self.id = 0;
         self.recursion = Recursion::new(0, 0);
         self.upsampler = Upsampler::NONE;
@@ -197,6 +209,22 @@ impl<S: Capacity, A: WeightSearch + RowMixture + SectionProduct + InnerProduct> 
         }
     }
 
+    /// Returns true if the texture differs along an axis and across it.
+    #[must_use]
+    pub const fn has_axis(&self) -> bool {
+        self.has_axis
+    }
+
+    /// The axis, if there is one.
+    #[inline(always)]
+    pub(crate) const fn axis(&self) -> Option<&Axis<A>> {
+        if self.has_axis {
+            Some(&self.axis)
+        } else {
+            None
+        }
+    }
+
     /// Length and kind of the recursion.
     #[inline]
     pub(crate) const fn recursion(&self) -> Recursion {
@@ -211,18 +239,16 @@ impl<S: Capacity, A: WeightSearch + RowMixture + SectionProduct + InnerProduct> 
 }
 
 impl<S: Capacity, A: WeightSearch + FactorLookup> Texture<S, A> {
-    /// Coefficient of kinetic friction at a tangential speed, mm/s.
+    /// Coefficient of kinetic friction at a tangential speed, mm/s, across the axis if there is one.
     #[must_use]
     pub fn mu_at(&self, speed_mm_s: f32) -> f32 {
-        self.friction_at(Quantity::of(speed_mm_s)).value()
+        let factor = self.law.factor(Quantity::of(speed_mm_s));
+        (self.coupling.mu * factor).value()
     }
 
-    /// μ(v).
+    /// Returns true if μ depends on the speed or the direction of a stroke.
     #[inline(always)]
-    pub(crate) fn friction_at(
-        &self,
-        speed: Quantity<A, MillimetrePerSecond>,
-    ) -> Quantity<A, FrictionCoefficient> {
-        self.law.of(self.coupling.mu, speed)
+    pub(crate) const fn mu_varies(&self) -> bool {
+        self.mu_varies
     }
 }

@@ -20,7 +20,7 @@ use crate::{
     },
     quantity::{
         Quantity,
-        unit::{ExcitationLevel, Fraction, MillimetrePerSecond, Newton},
+        unit::{DirectionFactor, ExcitationLevel, Fraction, MillimetrePerSecond, Newton},
     },
 };
 
@@ -95,18 +95,19 @@ impl<A: Arithmetic> Follower<A> {
 
 impl<A: WeightSearch + RowMixture + SectionProduct> Follower<A> {
     /// Begins a tick: does its slice of the cycle, unless that is the first one. The line spectrum
-    /// goes a `fraction` of its way in a cycle.
+    /// goes a `fraction` of its way in a cycle; the level is `gain` times that of the grid.
     #[inline(always)]
     pub(crate) fn step<S: Capacity>(
         &mut self,
         models: &Models<S, A>,
         plan: &Plan,
         fraction: impl Fn() -> Quantity<A, Fraction>,
+        gain: impl Fn() -> Quantity<A, DirectionFactor>,
         onset: &mut Onset,
         model: &mut Model<A>,
     ) {
         if plan.ticks_per_sample > 1 {
-            self.step_between(models, plan, fraction(), onset, model);
+            self.step_between(models, plan, fraction(), gain(), onset, model);
         } else if self.phase == Cycle::OVER {
             self.phase = 0;
             onset.begin_cycle();
@@ -116,7 +117,7 @@ impl<A: WeightSearch + RowMixture + SectionProduct> Follower<A> {
             self.work(models, plan.slice(self.phase), fraction(), *onset);
             self.phase += 1;
             if self.phase == plan.cycle.working() {
-                self.finish(models, onset, model);
+                self.finish(models, gain(), onset, model);
                 self.phase = plan.cycle.rest();
             }
         }
@@ -129,6 +130,7 @@ impl<A: WeightSearch + RowMixture + SectionProduct> Follower<A> {
         models: &Models<S, A>,
         plan: &Plan,
         fraction: Quantity<A, Fraction>,
+        gain: Quantity<A, DirectionFactor>,
         onset: &mut Onset,
         model: &mut Model<A>,
     ) {
@@ -142,7 +144,7 @@ impl<A: WeightSearch + RowMixture + SectionProduct> Follower<A> {
         if let Some(slice) = self.clock.slice(ticks, cycle) {
             self.work(models, plan.slice(slice), fraction, *onset);
             if usize::from(slice) + 1 == slices_of_cycle(ticks, cycle) {
-                self.finish(models, onset, model);
+                self.finish(models, gain, onset, model);
             }
         }
     }
@@ -200,6 +202,7 @@ impl<A: WeightSearch + RowMixture + SectionProduct> Follower<A> {
     fn finish<S: Capacity>(
         &mut self,
         models: &Models<S, A>,
+        gain: Quantity<A, DirectionFactor>,
         onset: &mut Onset,
         model: &mut Model<A>,
     ) {
@@ -208,7 +211,7 @@ impl<A: WeightSearch + RowMixture + SectionProduct> Follower<A> {
             Quantity::ZERO
         } else {
             *onset = Onset::Followed;
-            self.next_level
+            self.next_level * gain
         };
     }
 }

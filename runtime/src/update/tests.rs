@@ -45,7 +45,15 @@ fn compare<A: RenderArithmetic>(asset: &Asset<'_>, ticks_per_sample: u8) {
         let mut queries = 0;
         for _ in 0..CYCLE_TICKS * u32::from(ticks_per_sample) {
             let way = || Quantity::whole(1);
-            follower.step(&texture.models, &texture.plan, way, &mut onset, &mut model);
+            let gain = || Quantity::whole(1);
+            follower.step(
+                &texture.models,
+                &texture.plan,
+                way,
+                gain,
+                &mut onset,
+                &mut model,
+            );
             if follower.takes_query() {
                 follower.query(&texture.models, &texture.plan, speed, force);
                 queries += 1;

@@ -3,6 +3,7 @@
 mod attributes;
 mod bank;
 mod contact;
+mod direction;
 mod excitation;
 mod interpolator;
 mod motion;
@@ -13,6 +14,7 @@ mod tick;
 pub use attributes::{Attributes, attributes, loudest_n, stroke_n};
 pub use bank::{Bank, impulse_response};
 pub use contact::{Contact, Forces};
+pub use direction::DirectionFactors;
 pub use excitation::Excitation;
 pub use interpolator::Interpolator;
 pub use motion::Butterworth2;

@@ -1,10 +1,10 @@
 //! The whole tick.
 
 use super::{
-    Bank, Butterworth2, Contact, Excitation, Forces, Interpolator, Model, Texture, Vector,
-    distance_and_normal, dot, norm, plus, polynomial, times,
+    Bank, Butterworth2, Contact, DirectionFactors, Excitation, Forces, Interpolator, Model,
+    Texture, Vector, distance_and_normal, dot, norm, plus, polynomial, times,
 };
-use asperity_formats::Asset;
+use asperity_formats::{Asset, Direction};
 use asperity_runtime::{Config, Sample, VibrationAxis, stage::vibration::LAG_SAMPLES};
 use std::collections::VecDeque;
 
@@ -38,6 +38,10 @@ pub struct Oracle {
     law: Vec<(f64, f64)>,
     coupling: asperity_formats::Coupling,
     contact: Option<Contact>,
+    axis: Option<Direction>,
+    // The factors of the last query, and the factor of μ that follows.
+    factors: DirectionFactors,
+    mu_factor: f64,
     // Gate.
     bad_in_a_row: u32,
     seen: bool,
@@ -92,6 +96,9 @@ impl Oracle {
             }),
             coupling: *asset.coupling(),
             contact: (asset.contact()).map(|law| Contact::new(law, asset.coupling(), config)),
+            axis: asset.direction().copied(),
+            factors: DirectionFactors::ACROSS,
+            mu_factor: 1.0,
             bad_in_a_row: 0,
             seen: false,
             gain: 1.0,
@@ -160,9 +167,11 @@ impl Oracle {
         let forces = contact.map(|law| law.tick(before, depth, outward, speed, elapsed));
         let crunch = self.contact.as_ref().map_or(0.0, Contact::crunch_mm_s);
         let normal_force = forces.map_or(stiffness * depth, |forces| forces.load);
-        let vib = self.vibration(speed * 1000.0 + crunch, normal_force, touching && !safe);
+        self.follow_direction(normal);
+        let grid_speed = speed * 1000.0 * self.factors.speed + crunch;
+        let vib = self.vibration(grid_speed, normal_force, touching && !safe);
         let tap = f64::from(self.coupling.effective_mass_kg) * self.tap(distance);
-        let mu = self.mu * self.factor(speed * 1000.0);
+        let mu = self.mu * self.factor(speed * 1000.0) * self.mu_factor;
         let drag = forces.map_or(0.0, |forces| forces.drag);
         let limit = mu * normal_force + drag;
         let grip = normal_force + drag;
@@ -253,6 +262,27 @@ impl Oracle {
         }
     }
 
+    /// Takes the direction with the query; the factor of μ goes to that of the query in every tick.
+    fn follow_direction(&mut self, normal: Vector) {
+        let Some(axis) = &self.axis else { return };
+        if self.takes_query() {
+            self.factors = DirectionFactors::of(axis, self.direction, normal);
+        }
+        let ticks =
+            f64::from(self.config.parameter_time_constant_s) * f64::from(self.config.servo_rate_hz);
+        let share = if ticks > 0.0 {
+            1.0 - (-1.0 / ticks).exp()
+        } else {
+            1.0
+        };
+        self.mu_factor += share * (self.factors.mu - self.mu_factor);
+    }
+
+    /// Whether this tick takes a query.
+    const fn takes_query(&self) -> bool {
+        self.sample == 0 && self.tick == self.ticks - 1
+    }
+
     /// Every cycle takes one query, in the last tick before its second sample. The new model
     /// sounds late enough that a change of the query is heard after at most ten samples, if the
     /// contact lasts. Parameters follow the query in one step per cycle; those of a new contact
@@ -261,8 +291,9 @@ impl Oracle {
         if !sounding {
             (self.follows, self.pending, self.sounds) = (false, None, None);
         }
-        if self.sample == 0 && self.tick == self.ticks - 1 {
-            let target = self.texture.model(speed_mm_s, force_n);
+        if self.takes_query() {
+            let mut target = self.texture.model(speed_mm_s, force_n);
+            target.level_m_s2 *= self.factors.level;
             let steps = f64::from(self.config.parameter_time_constant_s)
                 * f64::from(self.config.servo_rate_hz)
                 / (self.cycle * self.ticks) as f64;

@@ -161,7 +161,8 @@ pub fn lower(texture: &TextureModel, preview_png: Option<&[u8]>) -> Result<Lower
             f_max_n: texture.gains.f_max_n as f32,
         },
         contact: contact.as_ref().map(LoweredLaw::parts),
-        provenance: Some(formats::Provenance {
+        direction: None,
+            provenance: Some(formats::Provenance {
             generator: &provenance.generator,
             source: &provenance.source,
             source_crc32: provenance.source_crc32,

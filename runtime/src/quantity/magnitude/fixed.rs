@@ -39,6 +39,13 @@ impl Magnitudes for Fixed {
     }
 
     #[inline(always)]
+    fn root<F: Point>(a: FixedI32<F>) -> FixedI32<F> {
+        Self::length(Self::magnitude(
+            (a.to_bits().unsigned_abs() as u64) << F::U32,
+        ))
+    }
+
+    #[inline(always)]
     fn is_some(square: u64) -> bool {
         square > 0
     }

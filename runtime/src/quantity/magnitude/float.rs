@@ -33,6 +33,11 @@ impl Magnitudes for Float {
     }
 
     #[inline(always)]
+    fn root<F: Point>(a: f32) -> f32 {
+        sqrt(a)
+    }
+
+    #[inline(always)]
     fn is_some(square: f32) -> bool {
         square > 1e-18
     }
