@@ -22,6 +22,7 @@ mod motion_stages;
 // What is loaded and configured.
 mod config_ranges;
 mod contact_laws;
+mod directions;
 mod fixed_ranges;
 mod loading;
 
