@@ -18,8 +18,8 @@
 use asperity_formats as formats;
 use asperity_formats::{Asset, LsfCode};
 use asperity_texture::model::{
-    Friction, FrictionAnchor, FrictionLaw, Gains, GridVertex, LawPoint, ModelGrid, Numerator,
-    Provenance, TapBank, TapTrace, TextureModel, VertexKind,
+    Direction, Friction, FrictionAnchor, FrictionLaw, Gains, GridVertex, LawPoint, ModelGrid,
+    Numerator, Provenance, TapBank, TapTrace, TextureModel, VertexKind,
     attributes::{self, Attributes, Meter},
 };
 
@@ -54,12 +54,23 @@ pub fn raise(asset: &Asset<'_>) -> TextureModel {
         },
         wall,
         contact,
+        direction: asset.direction().map(direction),
         gains: Gains {
             vib_s2_m: f64::from(coupling.vib_s2_m),
             effective_mass_kg: f64::from(coupling.effective_mass_kg),
             f_max_n: f64::from(coupling.f_max_n),
         },
         provenance: asset.provenance().map(provenance).unwrap_or_default(),
+    }
+}
+
+fn direction(stored: &formats::Direction) -> Direction {
+    Direction {
+        axis: stored.axis.map(f64::from),
+        power_ratio: stored.power_ratio.into(),
+        speed_ratio: stored.speed_ratio.into(),
+        mu_forward: stored.mu_forward.into(),
+        mu_backward: stored.mu_backward.into(),
     }
 }
 

@@ -8,6 +8,7 @@ mod check;
 pub mod complete;
 pub mod contact;
 pub mod description;
+pub mod direction;
 pub mod edges;
 pub mod embedded;
 pub(crate) mod files;

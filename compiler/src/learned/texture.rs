@@ -70,6 +70,7 @@ pub fn build(
             damping_n_s_m: defaults::DAMPING_N_S_M,
         },
         contact: None,
+        direction: None,
         gains,
         provenance,
     };

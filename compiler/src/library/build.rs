@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     edit_memory::AXES,
-    learned::{Certainty, contact},
+    learned::{Certainty, contact, direction},
     pipeline::{Clock, Pass, Pipeline, Timings},
     sources::{
         Tools,
@@ -365,7 +365,8 @@ fn keys(
         };
         places[index] = Some(edited(parts, &entry.options).key());
     }
-    let laws = Key::of(contact::TABLES.concat().as_bytes());
+    let tables = contact::TABLES.concat() + direction::TABLE;
+    let laws = Key::of(tables.as_bytes());
     let all = entries.iter().zip(&places);
     Ok(all
         .map(|(entry, place)| {

@@ -7,7 +7,7 @@ use crate::{
 use asperity_formats::Asset;
 use asperity_io::shown::counted;
 use asperity_texture::model::{
-    ContactLaw, FrictionLaw, TextureModel,
+    ContactLaw, Direction, FrictionLaw, TextureModel,
     attributes::{self, Attributes},
     mixture::{self, Field},
 };
@@ -40,6 +40,9 @@ pub struct Change {
     /// Parts of the contact law that changed, by their names.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub contact: Vec<String>,
+    /// Numbers of the direction that changed, by their names.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub direction: Vec<String>,
     /// What moved as far as a person notices: `rough`, `sharp`, `hard`, `slippery`, `soft`.
     pub felt: Vec<&'static str>,
     /// True if the picture changed.
@@ -65,18 +68,18 @@ impl Change {
         let depth_mm = gives_way.then(|| both(depth_mm));
         let mut felt = felt(&attributes::of(&before), &attributes::of(&after));
         felt.extend(depth_mm.filter(is_softer_or_firmer).map(|_| "soft"));
+        felt.extend(is_turned(before.direction, after.direction).then_some("direction"));
         Some(Self {
             spectrum_db: spectrum_db(&before, &after),
-            vibration_n: both(|t| {
-                t.gains.vib_s2_m * t.gains.f_max_n * ceiling::loudest_m_s2(&t.grid)
-            }),
+            vibration_n: both(|t| t.gains.vib_s2_m * t.gains.f_max_n * ceiling::loudest_m_s2(t)),
             tap_n: both(tap_n),
             stiffness_n_m: both(|t| t.wall.stiffness_n_m),
             mu: both(|t| t.friction.mu),
             law: (before.friction.law.is_some() || after.friction.law.is_some())
                 .then(|| [&before, &after].map(|t| t.friction.law.clone())),
             depth_mm,
-            contact: contact(before.contact.as_ref(), after.contact.as_ref()),
+            contact: changed(before.contact.as_ref(), after.contact.as_ref()),
+            direction: changed(before.direction.as_ref(), after.direction.as_ref()),
             felt,
             picture: old.preview_png() != new.preview_png(),
             haptic,
@@ -106,9 +109,20 @@ fn is_softer_or_firmer([old, new]: &[f64; 2]) -> bool {
     old.max(*new) >= NOTICED_COMPLIANCE * old.min(*new)
 }
 
-/// The parts in which two laws differ.
-fn contact(old: Option<&ContactLaw>, new: Option<&ContactLaw>) -> Vec<String> {
-    let parts = |law: Option<&ContactLaw>| match law.map(serde_json::to_value) {
+/// True if a stroke along an axis feels different.
+fn is_turned(old: Option<Direction>, new: Option<Direction>) -> bool {
+    let [old, new] = [old, new].map(|direction| direction.unwrap_or(Direction::NONE));
+    let db = |direction: Direction| 10.0 * libm::log10(direction.power_ratio.max(1e-4));
+    let apart = |old: f64, new: f64, least: f64| old.max(new) >= least * old.min(new);
+    (db(old) - db(new)).abs() >= NOTICED_DB
+        || apart(old.speed_ratio, new.speed_ratio, NOTICED_FREQUENCY)
+        || apart(old.mu_forward, new.mu_forward, NOTICED_FRICTION)
+        || apart(old.mu_backward, new.mu_backward, NOTICED_FRICTION)
+}
+
+/// The parts in which two laws or two directions differ.
+fn changed<T: Serialize>(old: Option<&T>, new: Option<&T>) -> Vec<String> {
+    let parts = |law: Option<&T>| match law.map(serde_json::to_value) {
         Some(Ok(serde_json::Value::Object(parts))) => parts,
         _ => serde_json::Map::new(),
     };
@@ -228,6 +242,9 @@ impl fmt::Display for Change {
         }
         if !self.contact.is_empty() {
             parts.push(format!("contact law: {}", self.contact.join(", ")));
+        }
+        if !self.direction.is_empty() {
+            parts.push(format!("direction: {}", self.direction.join(", ")));
         }
         if self.picture {
             parts.push("picture changed".into());

@@ -26,7 +26,7 @@
 
 use asperity_texture::{
     model::{
-        Gains, ModelGrid, Numerator, TextureModel,
+        Direction, Gains, Numerator, TextureModel,
         mixture::{self, Field},
     },
     signal::{level, reflection, spectrum::ArmaModel},
@@ -46,14 +46,14 @@ pub fn limit(texture: &mut TextureModel) {
     let gains = texture.gains;
     let peak_n = gains.f_max_n;
     let continuous_n = CONTINUOUS_SHARE * peak_n;
-    let levels = levels(&texture.grid);
+    let levels = levels(texture);
     let to_force = gains.vib_s2_m * gains.f_max_n;
     let asked_n = to_force * loudest(&levels);
     let mut vibration = factor(continuous_n, asked_n);
     for at in levels.iter().filter(|at| at.force_n <= continuous_n) {
         // Wall and friction stand at right angles; the vibration goes along the friction.
         let along_n = (peak_n * peak_n - at.force_n * at.force_n).sqrt();
-        let room_n = along_n - texture.friction.mu_at(at.speed_mm_s) * at.force_n;
+        let room_n = along_n - at.mu * at.force_n;
         // Where friction alone takes the device, no gain of the vibration helps.
         if room_n > 0.0 {
             vibration = vibration.min(factor(room_n, CREST * to_force * at.rms_m_s2));
@@ -100,30 +100,41 @@ fn factor(most: f64, asked: f64) -> f64 {
 
 /// The vibration at a place of the grid.
 struct Level {
-    speed_mm_s: f64,
     force_n: f64,
     rms_m_s2: f64,
+    mu: f64,
 }
 
-fn levels(grid: &ModelGrid) -> Vec<Level> {
+/// Levels across the axis; along it and halfway, too, where there is one.
+fn levels(texture: &TextureModel) -> Vec<Level> {
+    let grid = &texture.grid;
     let field = Field::new(grid);
-    mixture::places(grid)
-        .into_iter()
-        .filter_map(|(speed_mm_s, force_n)| {
-            let model = field.model(&field.locate(speed_mm_s, force_n)?);
+    let places = mixture::places(grid);
+    let sines: &[f64] = if texture.direction.is_some() {
+        &[0.0, 0.5, 1.0]
+    } else {
+        &[0.0]
+    };
+    let direction = texture.direction.unwrap_or(Direction::NONE);
+    let at = |sine: &f64| {
+        let factors = direction.at(*sine);
+        let level = |&(speed_mm_s, force_n): &(f64, f64)| {
+            let model = field.model(&field.locate(factors.speed * speed_mm_s, force_n)?);
             Some(Level {
-                speed_mm_s,
                 force_n,
-                rms_m_s2: rms_m_s2(&model, grid.numerator),
+                rms_m_s2: factors.level * rms_m_s2(&model, grid.numerator),
+                mu: factors.mu * texture.friction.mu_at(speed_mm_s),
             })
-        })
-        .collect()
+        };
+        places.iter().filter_map(level).collect::<Vec<_>>()
+    };
+    sines.iter().flat_map(at).collect()
 }
 
-/// Largest RMS of the vibration anywhere on a grid, m/s².
+/// Largest RMS of the vibration anywhere on the grid of a texture, in any direction, m/s².
 #[must_use]
-pub fn loudest_m_s2(grid: &ModelGrid) -> f64 {
-    loudest(&levels(grid))
+pub fn loudest_m_s2(texture: &TextureModel) -> f64 {
+    loudest(&levels(texture))
 }
 
 fn loudest(levels: &[Level]) -> f64 {
@@ -158,7 +169,7 @@ mod tests {
     }
 
     fn rms_n(texture: &TextureModel) -> f64 {
-        texture.gains.vib_s2_m * texture.gains.f_max_n * loudest_m_s2(&texture.grid)
+        texture.gains.vib_s2_m * texture.gains.f_max_n * loudest_m_s2(texture)
     }
 
     #[test]
@@ -185,12 +196,20 @@ mod tests {
 
     #[test]
     fn friction_leaves_the_peaks_of_a_vibration_their_room() {
-        // A coefficient of 3, and a law that reaches it from 0.5 within 1 mm/s.
+        // A coefficient of 3, a law that reaches it from 0.5 within 1 mm/s, and a nap that has it one way.
         let point = |speed_mm_s, factor| LawPoint { speed_mm_s, factor };
         let law = FrictionLaw {
             points: vec![point(0.0, 1.0), point(1.0, 6.0)],
         };
-        for (mu, law) in [(3.0, None), (0.5, Some(law))] {
+        let nap = Direction {
+            mu_backward: 3.0,
+            ..Direction::NONE
+        };
+        for (mu, law, direction) in [
+            (3.0, None, None),
+            (0.5, Some(law), None),
+            (1.0, None, Some(nap)),
+        ] {
             let mut texture = louder(300.0);
             // As loud under a light hand as under a heavy one.
             let loud = texture.grid.vertices[texture.grid.vertices.len() - 1].clone();
@@ -199,6 +218,7 @@ mod tests {
                 vertex.sigma_m_s2 = loud.sigma_m_s2;
             }
             (texture.friction.mu, texture.friction.law) = (mu, law);
+            texture.direction = direction;
             limit(&mut texture);
             let peak_n = texture.gains.f_max_n;
             let continuous_n = CONTINUOUS_SHARE * peak_n;
@@ -206,11 +226,12 @@ mod tests {
             assert!(rms_n(&texture) < 0.8 * continuous_n);
             let to_force = texture.gains.vib_s2_m * peak_n;
             let share = |at: &Level| {
-                let mu = if at.speed_mm_s < 1.0 { mu } else { 3.0 };
-                let along_n = mu * at.force_n + 3.0 * to_force * at.rms_m_s2;
+                let along_n = at.mu * at.force_n + 3.0 * to_force * at.rms_m_s2;
                 at.force_n.hypot(along_n) / peak_n
             };
-            let levels = levels(&texture.grid);
+            let levels = levels(&texture);
+            let steepest = levels.iter().map(|at| at.mu).fold(0.0, f64::max);
+            assert!((steepest - 3.0).abs() < 1e-9);
             let light = levels.iter().filter(|at| at.force_n <= continuous_n);
             let most = light.map(share).fold(0.0, f64::max);
             assert!((0.99..1.0).contains(&most), "μ {mu}: {most} of the peak");

@@ -102,6 +102,7 @@ pub fn texture() -> TextureModel {
         },
         wall: defaults::wall(),
         contact: None,
+        direction: None,
         gains,
         provenance: Provenance {
             generator: format!("asperity {} builtin", env!("CARGO_PKG_VERSION")),

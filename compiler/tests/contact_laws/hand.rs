@@ -22,7 +22,11 @@ fn slot(prompt: &str) -> Arc<HostTexture> {
     let texture = texture(prompt).silent();
     let bytes = lower(&texture, None).unwrap().bytes;
     let asset = Asset::parse(&bytes).unwrap();
-    assert_eq!(asset.version() >= 3, texture.contact.is_some(), "{prompt}");
+    assert_eq!(
+        asset.contact().is_some(),
+        texture.contact.is_some(),
+        "{prompt}"
+    );
     let mut slot = HostTexture::new();
     slot.load(&asset, Config::default().servo_rate_hz).unwrap();
     let slot = Arc::new(slot);

@@ -28,7 +28,7 @@ use asperity_formats::{
     self as formats, Anchor, AssetParts, Coupling, EncodeError, FormatError, FrictionParts,
     GridParts, ModelParts, TapParts, limits,
 };
-use asperity_texture::model::{Numerator, TapTrace, TextureModel, VertexKind, mesh};
+use asperity_texture::model::{Direction, Numerator, TapTrace, TextureModel, VertexKind, mesh};
 use serde::Serialize;
 use table::ModelTable;
 
@@ -161,8 +161,8 @@ pub fn lower(texture: &TextureModel, preview_png: Option<&[u8]>) -> Result<Lower
             f_max_n: texture.gains.f_max_n as f32,
         },
         contact: contact.as_ref().map(LoweredLaw::parts),
-        direction: None,
-            provenance: Some(formats::Provenance {
+        direction: texture.direction.as_ref().map(direction),
+        provenance: Some(formats::Provenance {
             generator: &provenance.generator,
             source: &provenance.source,
             source_crc32: provenance.source_crc32,
@@ -320,6 +320,17 @@ fn quantise_trace(trace: &TapTrace) -> Vec<f32> {
         .iter()
         .map(|code| (*code as f32) / (TAP_FULL_SCALE as f32) * peak)
         .collect()
+}
+
+/// The direction in binary32; its axis keeps length 1.
+fn direction(direction: &Direction) -> formats::Direction {
+    formats::Direction {
+        axis: direction.axis.map(|part| part as f32),
+        power_ratio: direction.power_ratio as f32,
+        speed_ratio: direction.speed_ratio as f32,
+        mu_forward: direction.mu_forward as f32,
+        mu_backward: direction.mu_backward as f32,
+    }
 }
 
 #[cfg(test)]

@@ -22,12 +22,12 @@ use asperity_texture::model::{ContactLaw, FrictionAnchor, TextureModel};
 /// Least distance of a neighbour, 1 − cosine: what is nearer is the material itself.
 const NEAREST: f64 = 1e-9;
 /// Cosine from which a latent is close to a material: those of a boiled sweet and of slime are further apart.
-const CLOSE: f64 = 0.75;
+pub(super) const CLOSE: f64 = 0.75;
 /// Part of μ by which a film changes it at least.
 const LEAST_SLIDE: f64 = 1e-3;
 
 /// The weights of friction over the distance 1 − cosine: the latent of a material has its law alone.
-fn shares<'a>(z: &[f32], description: &'a ModelDescription) -> Vec<(f64, &'a Anchor)> {
+pub(super) fn shares<'a>(z: &[f32], description: &'a ModelDescription) -> Vec<(f64, &'a Anchor)> {
     let near = friction::neighbours(z, &description.anchors, description.friction);
     let weight = |near: &friction::Neighbour| near.weight / (1.0 - near.cosine).max(NEAREST);
     let sum: f64 = near.iter().map(weight).sum();

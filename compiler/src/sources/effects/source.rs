@@ -275,6 +275,7 @@ fn texture(
         },
         wall: defaults::wall(),
         contact: None,
+        direction: None,
         gains,
         provenance: Provenance {
             generator,

@@ -68,6 +68,7 @@ pub fn to_model(material: &Material, source: &str, source_crc32: u32) -> Texture
         },
         wall: defaults::wall(),
         contact: None,
+        direction: None,
         gains,
         provenance: Provenance {
             generator: format!("asperity {} import hatt", env!("CARGO_PKG_VERSION")),

@@ -3,16 +3,18 @@
 use super::{Edit, EditResult, LatentEditor, Part};
 use crate::{
     edit_memory::{History, Ingredient, Latents, Memory, Origin, Step, damaged},
-    learned::{Decoded, Latent, LearnedModel, contact, friction, texture},
+    learned::{Decoded, Latent, LearnedModel, contact, direction, friction, texture},
     pipeline::{Pass, Pipeline, Request, Ringing},
     sources::{
         Source, SourceOutput, Tools,
-        prompt::{PromptCompiler, contact_law},
+        prompt::{PromptCompiler, contact_law, split_bearing},
     },
 };
 use asperity_io::diagnostic::{Failure, Fault};
 use asperity_language::phrase::relative;
-use asperity_texture::model::{ContactLaw, FrictionLaw, Provenance, TextureModel, shift::adjust};
+use asperity_texture::model::{
+    ContactLaw, Direction, FrictionLaw, Provenance, TextureModel, shift::adjust,
+};
 
 /// A texture that is decoded from latents.
 #[derive(Debug, Clone)]
@@ -29,6 +31,8 @@ pub struct FromLatents {
     pub law: Option<FrictionLaw>,
     /// Contact law that it came with: its words and its parts moved it from that of the latents.
     pub contact: Option<OwnContact>,
+    /// Direction that it came with.
+    pub direction: Option<Direction>,
     /// Warnings for the user.
     pub warnings: Vec<String>,
 }
@@ -55,6 +59,7 @@ impl FromLatents {
             history,
             law: None,
             contact: None,
+            direction: None,
             warnings: Vec::new(),
         }
     }
@@ -69,6 +74,7 @@ impl FromLatents {
                 tap: memory.latents.tap,
             }),
             law: texture.friction.law,
+            direction: texture.direction,
             ..Self::new(
                 memory.latents,
                 texture.name,
@@ -99,6 +105,7 @@ impl FromLatents {
         Self {
             contact: own,
             law: texture.friction.law,
+            direction: texture.direction,
             ..Self::new(latents, texture.name, provenance, history)
         }
     }
@@ -115,6 +122,7 @@ impl FromLatents {
         Self {
             contact: OwnContact::between(a.own_contact(), b.own_contact(), t, &latents),
             law: FrictionLaw::between(a.law.as_ref(), b.law.as_ref(), t),
+            direction: direction_between(a.direction, b.direction, t),
             ..Self::new(latents, String::new(), provenance, history)
         }
     }
@@ -131,6 +139,7 @@ impl FromLatents {
         Self {
             contact: tap.contact.clone(),
             law: friction.law.clone(),
+            direction: slide.direction,
             ..Self::new(latents, String::new(), provenance, history)
         }
     }
@@ -262,6 +271,19 @@ impl Source for FromLatents {
         );
         let mu = texture.friction.mu;
         texture.friction.law = self.law.clone().map(|law| law.beside(mu));
+        let bearing = self
+            .provenance
+            .prompt
+            .as_deref()
+            .and_then(|prompt| split_bearing(prompt).1);
+        texture.direction = self.direction;
+        if let Some(bearing) = bearing {
+            // What was compiled along the ribs is the same in every direction.
+            let (z, description) = (&self.latents.slide, model.description());
+            texture.direction =
+                direction::at(z, description).or_else(|| direction::said(z, description));
+            texture = texture.stroked(bearing);
+        }
         Ok(SourceOutput {
             ringing: Ringing::Stabilised,
             memory: Some(Memory {
@@ -274,6 +296,14 @@ impl Source for FromLatents {
             ..SourceOutput::new(texture)
         })
     }
+}
+
+/// The direction between those of two textures, of which either may have none.
+fn direction_between(a: Option<Direction>, b: Option<Direction>, t: f64) -> Option<Direction> {
+    let axis = a.or(b)?.axis;
+    let [a, b] = [a, b].map(|direction| direction.unwrap_or(Direction::NONE));
+    let between = Direction::mixed([(1.0 - t, &a), (t, &b)].into_iter());
+    Some(Direction { axis, ..between })
 }
 
 impl OwnContact {
@@ -315,10 +345,11 @@ pub fn decode(
         &latents.friction,
         description,
     );
+    texture.direction = direction::at(&latents.slide, description);
     Ok(texture)
 }
 
-/// The same without a contact law.
+/// The same without a contact law and a direction.
 fn plain(
     model: &LearnedModel,
     latents: &Latents,

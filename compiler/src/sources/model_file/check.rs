@@ -8,8 +8,8 @@ use crate::name;
 use asperity_formats::limits;
 use asperity_io::diagnostic::Fault;
 use asperity_texture::model::{
-    self, ContactLaw, Friction, FrictionLaw, Gains, GridVertex, ModelGrid, Numerator, TapBank,
-    TextureModel, Wall, defaults, mesh, tap_synthesis, triangulate,
+    self, ContactLaw, Direction, Friction, FrictionLaw, Gains, GridVertex, ModelGrid, Numerator,
+    TapBank, TextureModel, Wall, defaults, mesh, tap_synthesis, triangulate,
 };
 use std::f64::consts::PI;
 
@@ -66,6 +66,9 @@ pub(super) fn model(document: Document) -> Result<TextureModel, Fault> {
     if let Some(law) = &document.contact {
         contact::check(law)?;
     }
+    if let Some(stated) = &document.direction {
+        direction(stated, friction.highest_mu())?;
+    }
     let mut texture = TextureModel {
         name: document.name,
         grid,
@@ -73,6 +76,7 @@ pub(super) fn model(document: Document) -> Result<TextureModel, Fault> {
         friction,
         wall,
         contact: None,
+        direction: document.direction,
         gains,
         provenance: model::Provenance {
             generator: provenance.generator,
@@ -94,6 +98,23 @@ pub(super) fn model(document: Document) -> Result<TextureModel, Fault> {
     texture.wall.stiffness_n_m = slope.unwrap_or(texture.wall.stiffness_n_m);
     texture.contact = document.contact;
     Ok(texture)
+}
+
+/// An axis of length 1, ratios in their ranges, and μ in every direction.
+fn direction(stated: &Direction, highest_mu: f64) -> Result<(), Fault> {
+    let length = libm::sqrt(stated.axis.iter().map(|x| x * x).sum());
+    in_range("direction.axis", length, (0.9999, 1.0001))?;
+    let powers = (0.0, limits::MAX_POWER_RATIO);
+    in_range("direction.power_ratio", stated.power_ratio, powers)?;
+    in_range(
+        "direction.speed_ratio",
+        stated.speed_ratio,
+        limits::SPEED_RATIO,
+    )?;
+    let most = (f64::from(limits::MAX_MU) / highest_mu).min(limits::MU_RATIO.1.into());
+    let ratios = (limits::MU_RATIO.0, most as f32);
+    in_range("direction.mu_forward", stated.mu_forward, ratios)?;
+    in_range("direction.mu_backward", stated.mu_backward, ratios)
 }
 
 fn grid(stated: Grid) -> Result<ModelGrid, Fault> {

@@ -36,6 +36,7 @@ fn document(texture: &TextureModel) -> Document {
         friction: texture.friction.clone(),
         wall: Some(texture.wall),
         contact: texture.contact.clone(),
+        direction: texture.direction,
         gains: Some(texture.gains),
         provenance: Provenance {
             generator: provenance.generator.clone(),

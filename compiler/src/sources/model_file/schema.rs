@@ -1,9 +1,11 @@
 //! The format: what a file holds, key by key.
 //!
-//! Vertices, taps, friction, wall, contact law and gains are those of the model. Units are in the keys: m, s, N, rad, Hz, m/s², and
+//! Vertices, taps, friction, wall, contact law, direction and gains are those of the model. Units are in the keys: m, s, N, rad, Hz, m/s², and
 //! mm/s for the speeds of the grid.
 
-use asperity_texture::model::{ContactLaw, Friction, Gains, GridVertex, Numerator, TapBank, Wall};
+use asperity_texture::model::{
+    ContactLaw, Direction, Friction, Gains, GridVertex, Numerator, TapBank, Wall,
+};
 use serde::{Deserialize, Serialize};
 
 /// Value of `format`.
@@ -27,6 +29,9 @@ pub(super) struct Document {
     /// A spring takes the place of the wall's stiffness.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) contact: Option<ContactLaw>,
+    /// Ribs, a grain or a nap.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) direction: Option<Direction>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) gains: Option<Gains>,
     #[serde(default)]

@@ -7,7 +7,7 @@ use crate::{
     pipeline::Request,
     views::preview,
 };
-use asperity_texture::model::shift::Shift;
+use asperity_texture::model::{Bearing, Direction, shift::Shift};
 
 /// Compile options besides the prompt.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,6 +59,10 @@ pub struct CompiledPrompt {
     pub tokens: (usize, usize),
     /// Names and touch qualities in the prompt.
     pub reading: Reading,
+    /// The direction of the strokes, where the prompt says one.
+    pub bearing: Option<Bearing>,
+    /// The direction of the material, if it has one.
+    pub direction: Option<Direction>,
     /// Which words of the prompt the encoder can read.
     pub understood: Understood,
 }

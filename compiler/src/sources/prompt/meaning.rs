@@ -6,9 +6,9 @@ use super::{
     phrase::Phrase,
     reading::Reading,
 };
-use crate::learned::{Decoded, Latent, contact, description::ModelDescription, texture};
+use crate::learned::{Decoded, Latent, contact, description::ModelDescription, direction, texture};
 use asperity_texture::model::{
-    Provenance, TextureModel,
+    Direction, Provenance, TextureModel,
     attributes::{self, Attributes},
     shift::{self, Scales, Shift, adjust},
 };
@@ -118,7 +118,27 @@ impl PromptCompiler {
         let law = self.contact_law(&projection, &z)?;
         contact::give(&mut texture, law, &z, self.model().description());
         self.slide_between(&mut texture, &projection.reading)?;
-        Ok(texture)
+        Ok(self.directed(texture, &projection, &z)?.0)
+    }
+
+    /// A texture with the direction of its material, or as strokes of the bearing of its prompt feel it. Gives the direction,
+    /// too.
+    pub(super) fn directed(
+        &self,
+        mut texture: TextureModel,
+        projection: &Projection,
+        z: &Latent,
+    ) -> Result<(TextureModel, Option<Direction>), PromptError> {
+        let z = self.latent_of_material(projection, z)?;
+        let description = self.model().description();
+        texture.direction = direction::at(&z, description);
+        let found = texture.direction;
+        let Some(bearing) = projection.bearing else {
+            return Ok((texture, found));
+        };
+        texture.direction = found.or_else(|| direction::said(&z, description));
+        let found = texture.direction;
+        Ok((texture.stroked(bearing), found))
     }
 
     /// Puts μ between those of two things, of which films may carry the load.
@@ -143,13 +163,25 @@ impl PromptCompiler {
         projection: &Projection,
         z: &Latent,
     ) -> Result<Option<contact::Choice>, PromptError> {
-        let reading = &projection.reading;
-        let z = match &reading.phrase {
+        let z = self.latent_of_material(projection, z)?;
+        Ok(contact_law(
+            &z,
+            self.model().description(),
+            &projection.reading,
+        ))
+    }
+
+    /// The latent of what a prompt at this latent is about, without its changes.
+    fn latent_of_material(
+        &self,
+        projection: &Projection,
+        z: &Latent,
+    ) -> Result<Latent, PromptError> {
+        Ok(match &projection.reading.phrase {
             // The vector of "sticky honey" lies towards tape, and what its words move is moved by them.
             Phrase::Changed { base, .. } | Phrase::Graded { base, .. } => self.thing(base)?.z,
             _ => *z,
-        };
-        Ok(contact_law(&z, self.model().description(), reading))
+        })
     }
 
     /// The material that a text names; the text may be a phrase itself. Prompts of a library name few of them.

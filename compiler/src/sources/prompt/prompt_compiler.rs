@@ -1,7 +1,7 @@
 //! From a prompt to a verified texture.
 
 use super::{
-    CompiledPrompt, Nearest, PromptError,
+    CompiledPrompt, Nearest, PromptError, bearing,
     encoding_cache::{EncodingCache, Read},
     error::unread,
     named_things::Things,
@@ -24,7 +24,7 @@ use crate::{
 use asperity_formats::limits;
 use asperity_io::{diagnostic::Fault, shown::shortened};
 use asperity_texture::model::{
-    Provenance, TextureModel,
+    Bearing, Provenance, TextureModel,
     shift::{Scales, adjust},
 };
 use rand_core::{Rng as _, SeedableRng as _};
@@ -92,7 +92,7 @@ impl PromptCompiler {
     #[must_use]
     pub fn read(&self, prompt: &str) -> Reading {
         let cached = self.cache.reading(prompt);
-        cached.unwrap_or_else(|| self.reader.read(prompt))
+        cached.unwrap_or_else(|| self.reader.read(&bearing::split(prompt).0))
     }
 
     /// The same of a text that names a surface, and nothing else.
@@ -134,6 +134,7 @@ impl PromptCompiler {
             certainty: self.certainty(&reading, unfamiliar),
             tokens: (encoded.tokens, encoded.cut),
             reading,
+            bearing: bearing::split(prompt).1,
             understood: understood(shown(prompt).trim(), |word| self.text.reads(word)),
         })
     }
@@ -186,6 +187,7 @@ impl PromptCompiler {
         let law = self.contact_law(&projection, &place)?;
         contact::give(&mut texture, law, &place, self.model.description());
         self.slide_between(&mut texture, &projection.reading)?;
+        let (texture, direction) = self.directed(texture, &projection, &place)?;
         let memory = Memory {
             model_crc32: self.model.crc32(),
             latents: Latents::whole(z).shifted(shift),
@@ -203,6 +205,8 @@ impl PromptCompiler {
             similarity: projection.similarity,
             tokens: projection.tokens,
             reading: projection.reading,
+            bearing: projection.bearing,
+            direction,
             understood: projection.understood,
         };
         Ok(SourceOutput {
@@ -266,6 +270,8 @@ pub struct Projection {
     pub tokens: (usize, usize),
     /// Names and touch qualities in the prompt.
     pub reading: Reading,
+    /// The direction of the strokes, where the prompt says one.
+    pub bearing: Option<Bearing>,
     /// Which words the encoder can read.
     pub understood: Understood,
 }

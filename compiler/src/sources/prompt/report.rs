@@ -23,6 +23,12 @@ impl CompiledPrompt {
         {
             warnings.push(format!("“{said}” is read as “{corrected}”"));
         }
+        if let Some(bearing) = self.bearing.filter(|_| self.direction.is_none()) {
+            warnings.push(format!(
+                "“{}” feels the same in every direction: {bearing} changes nothing",
+                self.reading.text()
+            ));
+        }
         warnings.extend(self.reading.numbers.iter().cloned());
         if let Some([first, last]) = self.reading.conflict {
             warnings.push(format!(
@@ -75,6 +81,11 @@ impl CompiledPrompt {
     pub fn summary(&self, compiled: &Compiled, scale: &Scale) -> String {
         let mut lines = Lines::default();
         lines.add("taken as", excerpt(self.reading.text()));
+        if let Some(bearing) = self.bearing.filter(|_| self.direction.is_some()) {
+            lines.add("stroked", bearing.to_string());
+        } else if let Some(direction) = &compiled.texture.direction {
+            lines.add("direction", direction.to_string());
+        }
         if !self.reading.ignored.is_empty() {
             lines.add("left out", excerpt(self.reading.ignored.join(", ")));
         }
@@ -171,6 +182,8 @@ impl Findings for CompiledPrompt {
             "not_understood": self.understood.unread,
             "gains": compiled.texture.gains,
             "wall": compiled.texture.wall,
+            "stroked": self.bearing.filter(|_| self.direction.is_some()).map(|bearing| bearing.to_string()),
+            "direction": compiled.texture.direction,
             "order": compiled.texture.grid.order,
             "reduction": compiled.reduction,
             "z": self.z.to_vec(),

@@ -96,6 +96,7 @@ pub fn texture(
             damping_n_s_m: defaults::DAMPING_N_S_M,
         },
         contact: None,
+        direction: None,
         gains,
         provenance: Provenance {
             generator: format!("asperity {} import recording", env!("CARGO_PKG_VERSION")),

@@ -5,7 +5,8 @@ use crate::emit::raise::raise;
 use asperity_formats::Asset;
 use asperity_runtime::{Config, Renderer};
 use asperity_texture::model::{
-    ContactLaw, FrictionAnchor, FrictionLaw, Gains, Numerator, Provenance, VertexKind, Wall,
+    ContactLaw, Direction, FrictionAnchor, FrictionLaw, Gains, Numerator, Provenance, VertexKind,
+    Wall,
     attributes::{Attributes, Meter},
 };
 use serde::Serialize;
@@ -31,6 +32,9 @@ pub struct Document {
     /// What takes the linear wall's place in a material that gives way. Absent if it does not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact: Option<Contact>,
+    /// How strokes along ribs, a grain or a nap differ from those across. Absent if they do not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub direction: Option<Direction>,
     /// From accelerations to forces.
     pub gains: Gains,
     /// Objective attributes.
@@ -301,6 +305,7 @@ impl Document {
                 .contact
                 .zip(LoweredContact::of(asset))
                 .map(|(law, lowered)| Contact { law, lowered }),
+            direction: texture.direction,
             gains: texture.gains,
             attributes,
             bytes: Bytes {

@@ -95,6 +95,9 @@ fn write_text(
     if let Some(contact) = &d.contact {
         writeln!(out, "  contact      {contact}")?;
     }
+    if let Some(direction) = &d.direction {
+        writeln!(out, "  direction    {direction}")?;
+    }
     writeln!(
         out,
         "  gains        vibration {:.5} s²/m × {:.2} N, effective mass {:.3} kg",

@@ -63,6 +63,10 @@
 //!   to 50 mm, share above 0, up to 1, healing 0 to 1, recovery 0 to 60 s. Drag: 0 to 10⁵ N·s/m² and 0 to 10⁴ N/m.
 //!   Adhesion: pull above 0, up to 100 N, stiffness as the wall's. All: `contact.…`.
 //!
+//! **Direction** ([`Direction`])
+//! - The axis has length 1, within 10⁻⁴ of its square. Power ratio: 0 to 2. Speed ratio: 0.125 to 2. Ratios of μ: 0.0625
+//!   to 4, and μ, its law and a ratio together at most 10. All: `direction.…`.
+//!
 //! **Wall, gains, names, provenance**
 //! - Stiffness: above 0, up to 10⁵ N/m. Damping: 0 to 1000 N·s/m. `vib_s2_m`: 0 to 1000 s²/m. Effective mass: 0 to 100
 //!   kg. `f_max_n`: above 0, up to 10⁴ N. All: `surface.…`. [`defaults`] has valid ones; the pipeline's ceiling lowers
@@ -92,6 +96,7 @@
 pub mod attributes;
 mod contact;
 pub mod defaults;
+mod direction;
 mod friction_law;
 pub mod mesh;
 pub mod mixture;
@@ -101,6 +106,7 @@ mod texture;
 pub mod triangulate;
 
 pub use contact::{Adhesion, ContactLaw, Drag, Imprint, Relaxation, SpringPoint};
+pub use direction::{Bearing, Direction, StrokeFactors};
 pub use friction_law::{FrictionLaw, LawPoint};
 pub use texture::{
     Friction, FrictionAnchor, Gains, GridVertex, ModelGrid, Numerator, Provenance, TapBank,

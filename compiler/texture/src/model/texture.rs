@@ -1,6 +1,6 @@
 //! The types of a texture model, in f64 and SI units.
 
-use super::{ContactLaw, FrictionLaw};
+use super::{ContactLaw, Direction, FrictionLaw};
 use crate::signal::{lsf, spectrum::ArmaModel};
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -19,6 +19,8 @@ pub struct TextureModel {
     pub wall: Wall,
     /// What takes the linear wall's place in a material that gives way.
     pub contact: Option<ContactLaw>,
+    /// How strokes along its ribs, grain or nap differ from those across.
+    pub direction: Option<Direction>,
     /// From accelerations to forces on the device.
     pub gains: Gains,
     /// Where the texture comes from.

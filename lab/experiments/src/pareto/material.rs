@@ -99,6 +99,7 @@ fn prototype(material: &Material, grid: &UnifiedGrid, speeds_m_s: &[f64]) -> Tex
             damping_n_s_m: defaults::DAMPING_N_S_M,
         },
         contact: None,
+        direction: None,
         gains: defaults::gains(),
         provenance: Provenance::default(),
     }

@@ -68,6 +68,7 @@ fn texture(order: usize, side: usize, numerator: Numerator, sigma_m_s2: f64) -> 
             damping_n_s_m: 0.0,
         },
         contact: None,
+        direction: None,
         gains: Gains {
             vib_s2_m: 0.015,
             effective_mass_kg: 0.05,

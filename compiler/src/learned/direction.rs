@@ -1,0 +1,101 @@
+//! The direction of a latent, from its neighbours, as friction has it.
+
+use super::{contact, description::ModelDescription, friction};
+use asperity_model::DIRECTIONS;
+use asperity_texture::model::Direction;
+use serde::Deserialize;
+use std::{collections::BTreeMap, sync::LazyLock};
+
+/// Part of its neighbours, by weight, that has a direction where a latent has one.
+const MOST: f64 = 0.5;
+/// The same where a prompt says how it is stroked.
+const LEAST: f64 = 0.25;
+/// A difference of the level, dB, and of a ratio that nobody feels.
+const UNFELT: (f64, f64) = (0.5, 0.03);
+
+/// The table, which decides textures as the model does.
+pub static TABLE: &str = DIRECTIONS;
+
+/// A material whose relief or friction depends on the direction of a stroke.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Material {
+    name: String,
+    /// What lies along the axis.
+    axis: String,
+    power_ratio: f64,
+    speed_ratio: f64,
+    mu_forward: f64,
+    mu_backward: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Table {
+    material: Vec<Material>,
+}
+
+/// Directions by the names of materials, and what lies along their axes; a test reads them all.
+static MATERIALS: LazyLock<BTreeMap<String, (Direction, String)>> = LazyLock::new(|| {
+    let table: Option<Table> = toml::from_str(DIRECTIONS).ok();
+    let materials = table.into_iter().flat_map(|table| table.material);
+    let entry = |material: Material| {
+        let direction = Direction {
+            power_ratio: material.power_ratio,
+            speed_ratio: material.speed_ratio,
+            mu_forward: material.mu_forward,
+            mu_backward: material.mu_backward,
+            ..Direction::NONE
+        };
+        (material.name, (direction, material.axis))
+    };
+    materials.map(entry).collect()
+});
+
+/// Names of the materials that have a direction, and what lies along their axes.
+pub fn materials() -> impl Iterator<Item = (&'static str, &'static str)> {
+    MATERIALS.iter().map(|(name, (_, axis))| (&**name, &**axis))
+}
+
+/// The direction at a latent; `None` where its close neighbours that have one are not most of all by weight, and where nobody
+/// would feel it.
+#[must_use]
+pub fn at(z: &[f32], description: &ModelDescription) -> Option<Direction> {
+    let shares = shares(z, description, contact::CLOSE);
+    let weight: f64 = shares.iter().map(|(weight, _)| weight).sum();
+    let mixed = Direction::mixed(shares.into_iter());
+    Some(mixed).filter(|direction| weight > MOST && is_felt(direction))
+}
+
+/// The direction of a latent whose prompt says how it is stroked: that of the neighbours that have one, if they weigh
+/// something.
+#[must_use]
+pub fn said(z: &[f32], description: &ModelDescription) -> Option<Direction> {
+    let shares = shares(z, description, -1.0);
+    let weight: f64 = shares.iter().map(|(weight, _)| weight).sum();
+    let shares = shares
+        .into_iter()
+        .map(|(share, direction)| (share / weight, direction));
+    Some(Direction::mixed(shares)).filter(|direction| weight > LEAST && is_felt(direction))
+}
+
+/// The neighbours from a cosine on that have a direction, and their weights among all.
+fn shares(
+    z: &[f32],
+    description: &ModelDescription,
+    cosine: f64,
+) -> Vec<(f64, &'static Direction)> {
+    let shares = contact::shares(z, description);
+    let close = (shares.iter()).filter(|(_, anchor)| friction::cosine(z, &anchor.z) >= cosine);
+    let directed = close.filter_map(|(weight, anchor)| {
+        let (direction, _) = MATERIALS.get(&anchor.name)?;
+        Some((*weight, direction))
+    });
+    directed.collect()
+}
+
+fn is_felt(direction: &Direction) -> bool {
+    let [power, rest @ ..] = direction.ratios();
+    let level_db = 10.0 * libm::log10(power.max(f64::MIN_POSITIVE));
+    level_db.abs() > UNFELT.0 || rest.iter().any(|ratio| (ratio - 1.0).abs() > UNFELT.1)
+}
