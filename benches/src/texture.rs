@@ -114,7 +114,7 @@ pub fn texture_on(order: usize, numerator: Numerator, columns: usize, rows: usiz
     encoded(order, numerator, (columns, rows), Extras::default())
 }
 
-/// What a texture may have beside its grid and its taps.
+/// Parts of a texture beside its grid and its taps.
 #[derive(Default)]
 struct Extras<'a> {
     law: &'a [LawPoint],

@@ -3,6 +3,7 @@
 
 mod auto_gain;
 mod contact_laws;
+mod directions;
 mod edits;
 mod manifests;
 mod model_schema;

@@ -49,7 +49,7 @@ const TEXTURES: [(&str, usize, Numerator); 7] = [
     ("order 4, zero, contact", 4, Numerator::Nyquist),
     ("order 20, ARMA, ribs", 20, Numerator::Lsf),
 ];
-/// How many textures are walls.
+/// Number of textures that are walls.
 const WALLS: usize = 4;
 /// The texture with ribs.
 const RIBS: usize = TEXTURES.len() - 1;

@@ -32,8 +32,8 @@ pub static CLIP_MERGES: &str = include_str!("../clip_merges.txt");
 /// [`folder`]: what does not give way does not depend on them.
 pub static CONTACT_LAWS: &str = include_str!("../contact_laws.toml");
 
-/// How strokes along the ribs, the grain or the nap of materials differ from those across, by the names of `model.json`,
-/// as TOML; no part of [`folder`], either.
+/// The directions of materials with ribs, a grain or a nap, by the names of `model.json`, as TOML; no part of [`folder`],
+/// either.
 pub static DIRECTIONS: &str = include_str!("../directions.toml");
 
 /// CRC-32 of the files of [`folder`], one after another. A test compares.

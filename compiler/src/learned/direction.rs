@@ -2,7 +2,7 @@
 
 use super::{contact, description::ModelDescription, friction};
 use asperity_model::DIRECTIONS;
-use asperity_texture::model::Direction;
+use asperity_texture::model::{Bearing, Direction};
 use serde::Deserialize;
 use std::{collections::BTreeMap, sync::LazyLock};
 
@@ -10,8 +10,19 @@ use std::{collections::BTreeMap, sync::LazyLock};
 const MOST: f64 = 0.5;
 /// The same where a prompt says how it is stroked.
 const LEAST: f64 = 0.25;
+/// μ against a nap over that with it from which there is one.
+const LEANS: f64 = 1.05;
 /// A difference of the level, dB, and of a ratio that nobody feels.
 const UNFELT: (f64, f64) = (0.5, 0.03);
+
+/// The direction of strokes that a prompt says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stroke {
+    /// Its bearing.
+    pub bearing: Bearing,
+    /// A material with what the prompt says lies along the axis; `None` where it says only "lengthwise".
+    pub like: Option<&'static str>,
+}
 
 /// The table, which decides textures as the model does.
 pub static TABLE: &str = DIRECTIONS;
@@ -68,15 +79,18 @@ pub fn at(z: &[f32], description: &ModelDescription) -> Option<Direction> {
 }
 
 /// The direction of a latent whose prompt says how it is stroked: that of the neighbours that have one, if they weigh
-/// something.
+/// something and have a nap where it says so, or else that of a material with what the prompt says lies along its axis.
 #[must_use]
-pub fn said(z: &[f32], description: &ModelDescription) -> Option<Direction> {
+pub fn said(z: &[f32], description: &ModelDescription, stroke: &Stroke) -> Option<Direction> {
     let shares = shares(z, description, -1.0);
     let weight: f64 = shares.iter().map(|(weight, _)| weight).sum();
-    let shares = shares
-        .into_iter()
-        .map(|(share, direction)| (share / weight, direction));
-    Some(Direction::mixed(shares)).filter(|direction| weight > LEAST && is_felt(direction))
+    let shares = (shares.into_iter()).map(|(share, direction)| (share / weight, direction));
+    let found = Some(Direction::mixed(shares)).filter(|direction| {
+        let leans = direction.mu_backward > LEANS * direction.mu_forward;
+        let asked = matches!(stroke.bearing, Bearing::With | Bearing::Against);
+        weight > LEAST && is_felt(direction) && (leans || !asked)
+    });
+    found.or_else(|| Some(MATERIALS.get(stroke.like?)?.0))
 }
 
 /// The neighbours from a cosine on that have a direction, and their weights among all.

@@ -7,7 +7,7 @@ use crate::{
     pipeline::{Pass, Pipeline, Request, Ringing},
     sources::{
         Source, SourceOutput, Tools,
-        prompt::{PromptCompiler, contact_law, split_bearing},
+        prompt::{PromptCompiler, contact_law, split_stroke},
     },
 };
 use asperity_io::diagnostic::{Failure, Fault};
@@ -271,18 +271,13 @@ impl Source for FromLatents {
         );
         let mu = texture.friction.mu;
         texture.friction.law = self.law.clone().map(|law| law.beside(mu));
-        let bearing = self
-            .provenance
-            .prompt
-            .as_deref()
-            .and_then(|prompt| split_bearing(prompt).1);
+        let prompt = self.provenance.prompt.as_deref();
         texture.direction = self.direction;
-        if let Some(bearing) = bearing {
+        if let Some(stroke) = prompt.and_then(|prompt| split_stroke(prompt).1) {
             // What was compiled along the ribs is the same in every direction.
             let (z, description) = (&self.latents.slide, model.description());
-            texture.direction =
-                direction::at(z, description).or_else(|| direction::said(z, description));
-            texture = texture.stroked(bearing);
+            texture.direction = direction::said(z, description, &stroke);
+            texture = texture.stroked(stroke.bearing);
         }
         Ok(SourceOutput {
             ringing: Ringing::Stabilised,

@@ -3,88 +3,121 @@
 //! These words say how a material is stroked, and nothing of the material. So they are taken out before the prompt is
 //! read, and the texture becomes that of strokes in their direction.
 
+use crate::learned::direction::Stroke;
 use asperity_texture::model::Bearing;
 use std::{borrow::Cow, ops::Range};
 
-/// What lies along an axis and leans neither way.
-const LINES: [&str; 52] = [
-    "rib",
-    "ribs",
-    "ribbing",
-    "ridge",
-    "ridges",
-    "groove",
-    "grooves",
-    "furrow",
-    "furrows",
-    "flute",
-    "flutes",
-    "wale",
-    "wales",
-    "cord",
-    "cords",
-    "line",
-    "lines",
-    "stripe",
-    "stripes",
-    "corrugation",
-    "corrugations",
-    "grain",
-    "figure",
-    "fibre",
-    "fibres",
-    "fiber",
-    "fibers",
-    "thread",
-    "threads",
-    "warp",
-    "weave",
-    "twill",
-    "lay",
-    "strand",
-    "strands",
-    "string",
-    "strings",
-    "reed",
-    "reeds",
-    "layers",
-    "growth rings",
-    "brush marks",
-    "brush strokes",
-    "brushstrokes",
-    "brushing",
-    "scratches",
-    "sanding marks",
-    "saw marks",
-    "tool marks",
-    "machining marks",
-    "slats",
-    "veins",
+/// What lies along an axis, by the material that has it: the direction of what says that it has such, and of which the model
+/// knows none.
+const LINES: [(&str, &[&str]); 12] = [
+    (
+        "corduroy",
+        &[
+            "rib", "ribs", "ribbing", "wale", "wales", "cord", "cords", "ridge", "ridges",
+            "stripe", "stripes", "pleats", "folds", "crinkles", "wrinkles",
+        ],
+    ),
+    (
+        "corrugated cardboard",
+        &[
+            "flute",
+            "flutes",
+            "corrugation",
+            "corrugations",
+            "fins",
+            "waves",
+            "rings",
+            "ring",
+            "windings",
+            "coils",
+            "turns",
+            "beads",
+        ],
+    ),
+    (
+        "vinyl record",
+        &[
+            "groove", "grooves", "furrow", "furrows", "thread", "threads", "seam",
+        ],
+    ),
+    (
+        "planed pine",
+        &[
+            "grain",
+            "figure",
+            "growth rings",
+            "veins",
+            "board",
+            "boards",
+            "plank",
+            "planks",
+            "saw marks",
+        ],
+    ),
+    (
+        "brushed stainless steel",
+        &[
+            "brush marks",
+            "brush strokes",
+            "brushstrokes",
+            "brushing",
+            "scratches",
+            "sanding marks",
+            "tool marks",
+            "machining marks",
+            "polish lines",
+            "lay",
+            "line",
+            "lines",
+        ],
+    ),
+    ("3D-printed layers", &["layers", "layer lines"]),
+    ("denim", &["weave", "twill", "warp", "weft"]),
+    (
+        "hemp rope",
+        &[
+            "strand",
+            "strands",
+            "string",
+            "strings",
+            "wires",
+            "wire",
+            "cables",
+            "lay of the rope",
+        ],
+    ),
+    (
+        "straw hat",
+        &[
+            "fibre", "fibres", "fiber", "fibers", "stalks", "stalk", "straws", "reed", "reeds",
+            "canes", "stems",
+        ],
+    ),
+    (
+        "bamboo",
+        &[
+            "sticks", "slats", "rods", "poles", "pencils", "tubes", "bars",
+        ],
+    ),
+    ("feather", &["barb", "barbs", "vane", "vanes"]),
+    ("paintbrush", &["filaments", "spines"]),
 ];
-/// What leans one way, so that strokes along it have two senses.
-const NAPS: [&str; 22] = [
-    "nap",
-    "pile",
-    "fur",
-    "hair",
-    "hairs",
-    "scale",
-    "scales",
-    "wool",
-    "barb",
-    "barbs",
-    "lie",
-    "teeth",
-    "whiskers",
-    "stubble",
-    "bristles",
-    "feathers",
-    "coat",
-    "fuzz",
-    "tufts",
-    "denticles",
-    "blades",
-    "vanes",
+/// The same of what leans one way, so that strokes along it have two senses.
+const NAPS: [(&str, &[&str]); 8] = [
+    ("velvet", &["nap", "fuzz", "lie", "lean"]),
+    ("cut-pile carpet", &["pile", "tufts"]),
+    (
+        "rabbit fur",
+        &["fur", "hair", "hairs", "coat", "wool", "growth"],
+    ),
+    ("shark skin", &["scale", "scales", "denticles", "overlap"]),
+    ("wood rasp", &["teeth", "tooth", "hooks"]),
+    (
+        "unshaven chin",
+        &["whiskers", "stubble", "bristles", "awns"],
+    ),
+    ("cat's tongue", &["papillae", "thorns", "spikes"]),
+    ("artificial grass", &["blades", "feathers", "needles"]),
 ];
 /// Words that say a direction by themselves.
 const ALONE: [(&str, Bearing); 12] = [
@@ -106,109 +139,161 @@ const STROKED: [&str; 16] = [
     "stroked", "stroking", "rubbed", "rubbing", "dragged", "dragging", "swiped", "swiping",
     "drawn", "moving", "moved", "running", "run", "sliding", "slid", "going",
 ];
-/// Words between a preposition and what it goes with.
-const BETWEEN: [&str; 5] = ["the", "its", "their", "this", "that"];
+/// Words that may stand between a preposition and what lies along the axis, with up to two others behind them: "the raised
+/// grain".
+const BETWEEN: [&str; 9] = [
+    "the", "its", "their", "this", "that", "a", "an", "one", "each",
+];
+const ADJECTIVES: usize = 2;
+/// How prepositions go with an axis. What stands first is tried first.
+const WAYS: [(&str, Option<Way>); 20] = [
+    ("along with", None),
+    ("along the length of", Some(Way::Along)),
+    ("along", Some(Way::Along)),
+    ("down the length of", Some(Way::Along)),
+    ("down", Some(Way::Down)),
+    ("downward", Some(Way::Down)),
+    ("up", Some(Way::Up)),
+    ("upward", Some(Way::Up)),
+    ("parallel to", Some(Way::Along)),
+    ("parallel with", Some(Way::Along)),
+    ("in the direction of", Some(Way::With)),
+    ("following", Some(Way::Along)),
+    ("across", Some(Way::Across)),
+    ("over", Some(Way::Across)),
+    ("crossing", Some(Way::Across)),
+    ("perpendicular to", Some(Way::Across)),
+    ("at right angles to", Some(Way::Across)),
+    ("transverse to", Some(Way::Across)),
+    ("with", Some(Way::With)),
+    ("against", Some(Way::Against)),
+];
 /// Words of a phrase at most.
-const LONGEST: usize = 6;
+const LONGEST: usize = 8;
 
-/// The prompt without its words of direction, and the bearing that they say. A prompt that says two, that denies one or that
+/// The prompt without its words of direction, and the stroke that they say. A prompt that says two, that denies one or that
 /// says nothing else stays as it is.
-pub(crate) fn split(prompt: &str) -> (Cow<'_, str>, Option<Bearing>) {
+pub(crate) fn split(prompt: &str) -> (Cow<'_, str>, Option<Stroke>) {
     let words = words(prompt);
-    let mut found: Vec<(Range<usize>, Bearing)> = Vec::new();
+    let mut found: Vec<(Range<usize>, Stroke)> = Vec::new();
     let mut at = 0;
     while at < words.len() {
-        let Some((count, bearing)) = phrase(prompt, &words[at..]) else {
+        let Some((count, stroke)) = phrase(prompt, &words[at..]) else {
             at += 1;
             continue;
         };
-        found.push((at..at + count, bearing));
+        found.push((at..at + count, stroke));
         at += count;
     }
-    let [(range, bearing)] = &found[..] else {
+    // "Lengthwise across the rings": what names the rings says more.
+    let said = || found.iter().map(|(_, stroke)| *stroke);
+    let named = said().find(|stroke| stroke.like.is_some());
+    let Some(stroke) = named.or_else(|| said().next()) else {
         return (prompt.into(), None);
     };
+    let other = |other: Stroke| {
+        other.bearing != stroke.bearing && other.like.is_some() == stroke.like.is_some()
+    };
+    if said().any(other) {
+        return (prompt.into(), None);
+    }
     let word = |n: usize| lower(prompt, &words[n]);
-    let mut from = range.start;
-    if from > 0 && ["not", "never", "no"].contains(&word(from - 1).as_str()) {
+    let mut rest: Vec<&str> = Vec::new();
+    let mut begin = 0;
+    for (range, _) in &found {
+        let mut from = range.start;
+        if from > 0 && ["not", "never", "no"].contains(&word(from - 1).as_str()) {
+            return (prompt.into(), None);
+        }
+        while from > 0 && STROKED.contains(&word(from - 1).as_str()) {
+            from -= 1;
+        }
+        rest.push(&prompt[begin..words[from].start.max(begin)]);
+        begin = words[range.end - 1].end;
+    }
+    rest.push(&prompt[begin..]);
+    let is_joint = |c: char| c.is_whitespace() || matches!(c, ',' | ';' | ':' | '-' | '(' | ')');
+    let rest: Vec<&str> = (rest.into_iter())
+        .map(|part| part.trim_matches(is_joint))
+        .filter(|part| !part.is_empty())
+        .collect();
+    if rest.is_empty() {
         return (prompt.into(), None);
     }
-    while from > 0 && STROKED.contains(&word(from - 1).as_str()) {
-        from -= 1;
-    }
-    let (before, after) = (
-        &prompt[..words[from].start],
-        &prompt[words[range.end - 1].end..],
-    );
-    let is_joint = |c: char| c.is_whitespace() || matches!(c, ',' | ';' | ':' | '-' | '(' | ')');
-    let (before, after) = (
-        before.trim_end_matches(is_joint),
-        after.trim_start_matches(is_joint),
-    );
-    let rest = match (before.trim().is_empty(), after.trim().is_empty()) {
-        (true, true) => return (prompt.into(), None),
-        (true, false) => after.to_owned(),
-        (false, true) => before.to_owned(),
-        (false, false) => format!("{before}, {after}"),
-    };
-    (rest.into(), Some(*bearing))
+    (rest.join(", ").into(), Some(stroke))
 }
 
-/// The bearing of a phrase at the beginning of these words, and how many of them it takes.
-fn phrase(text: &str, words: &[Range<usize>]) -> Option<(usize, Bearing)> {
+/// The stroke of a phrase at the beginning of these words, and how many of them it takes.
+fn phrase(text: &str, words: &[Range<usize>]) -> Option<(usize, Stroke)> {
     let said: Vec<String> = words
         .iter()
         .take(LONGEST)
         .map(|word| lower(text, word))
         .collect();
-    let is = |at: usize, phrase: &str| {
-        let parts: Vec<&str> = phrase.split(' ').collect();
-        let here = said.get(at..at + parts.len())?;
-        (here == parts.as_slice()).then_some(parts.len())
+    let alone = || {
+        let (count, bearing) =
+            (ALONE.iter()).find_map(|(alone, bearing)| Some((starts(&said, alone)?, *bearing)))?;
+        Some((
+            count,
+            Stroke {
+                bearing,
+                like: None,
+            },
+        ))
     };
-    if let Some(alone) = ALONE
+    named(&said).or_else(alone)
+}
+
+/// The number of words of a phrase that stands at the beginning of others.
+fn starts(said: &[String], phrase: &str) -> Option<usize> {
+    let parts: Vec<&str> = phrase.split(' ').collect();
+    (said.get(..parts.len())? == parts.as_slice()).then_some(parts.len())
+}
+
+/// The stroke of a preposition and what lies along the axis.
+fn named(said: &[String]) -> Option<(usize, Stroke)> {
+    let (from, way) = WAYS
         .iter()
-        .find_map(|(phrase, bearing)| Some((is(0, phrase)?, *bearing)))
-    {
-        return Some(alone);
-    }
-    let (mut at, way) = [
-        ("along with", None),
-        ("along", Some(Way::Along)),
-        ("down", Some(Way::Down)),
-        ("up", Some(Way::Up)),
-        ("parallel to", Some(Way::Along)),
-        ("parallel with", Some(Way::Along)),
-        ("in the direction of", Some(Way::With)),
-        ("following", Some(Way::Along)),
-        ("across", Some(Way::Across)),
-        ("perpendicular to", Some(Way::Across)),
-        ("at right angles to", Some(Way::Across)),
-        ("transverse to", Some(Way::Across)),
-        ("with", Some(Way::With)),
-        ("against", Some(Way::Against)),
-    ]
-    .into_iter()
-    .find_map(|(phrase, way)| Some((is(0, phrase)?, way)))?;
+        .find_map(|(phrase, way)| Some((starts(said, phrase)?, *way)))?;
     let way = way?;
     let determined = said
-        .get(at)
+        .get(from)
         .is_some_and(|word| BETWEEN.contains(&word.as_str()));
-    at += usize::from(determined);
-    let one_of = |names: &[&str]| names.iter().find_map(|name| is(at, name));
-    let (line, nap) = (one_of(&LINES), one_of(&NAPS));
-    let bearing = match (way, nap.is_some()) {
+    let from = from + usize::from(determined);
+    // "Growth rings" before "growth".
+    let longest = |at: usize| {
+        let behind = said.get(at..)?;
+        let of = |names: &'static [(&str, &[&str])], leans: bool| {
+            let names = names
+                .iter()
+                .flat_map(|(like, names)| names.iter().map(move |name| (*like, name)));
+            names.filter_map(move |(like, name)| Some((starts(behind, name)?, like, leans)))
+        };
+        of(&NAPS, true)
+            .chain(of(&LINES, false))
+            .max_by_key(|(count, ..)| *count)
+    };
+    // "With the deep pile" has one, "against the tiny teeth" meets them.
+    let skipped = if determined && way != Way::With {
+        ADJECTIVES
+    } else {
+        0
+    };
+    let (at, (count, like, leans)) =
+        (from..=from + skipped).find_map(|at| Some((at, longest(at)?)))?;
+    let bearing = match (way, leans) {
         (Way::Along, _) => Bearing::Along,
         (Way::Across, _) => Bearing::Across,
         // "corduroy with ribs" has them.
         (Way::With | Way::Down | Way::Up, _) if !determined => return None,
-        (Way::With, true) | (Way::Down, true) => Bearing::With,
+        (Way::With | Way::Down, true) => Bearing::With,
         (Way::Against | Way::Up, true) => Bearing::Against,
         (Way::With | Way::Down | Way::Up, false) => Bearing::Along,
         // Of wood and cloth it is said of strokes that cross what lies along them.
         (Way::Against, false) => Bearing::Across,
     };
-    Some((at + line.or(nap)?, bearing))
+    let like = Some(like);
+    Some((at + count, Stroke { bearing, like }))
 }
 
 /// How a preposition goes with an axis.
@@ -254,6 +339,13 @@ mod tests {
             ("corduroy along the ribs", "corduroy", Along),
             ("Corduroy, across the ribs", "Corduroy", Across),
             ("with the grain of an oak plank", "of an oak plank", Along),
+            ("a hose, lengthwise over the rings", "a hose", Across),
+            (
+                "cedar fence, following the raised grain",
+                "cedar fence",
+                Along,
+            ),
+            ("a file drawn against the tiny teeth", "a file", Against),
             (
                 "oak plank, against the grain, oiled",
                 "oak plank, oiled",
@@ -278,7 +370,12 @@ mod tests {
                 Across,
             ),
         ] {
-            assert_eq!(split(prompt), (rest.into(), Some(bearing)), "{prompt}");
+            let (found, stroke) = split(prompt);
+            assert_eq!(
+                (&*found, stroke.map(|stroke| stroke.bearing)),
+                (rest, Some(bearing)),
+                "{prompt}"
+            );
         }
     }
 

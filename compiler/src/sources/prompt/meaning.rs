@@ -131,14 +131,14 @@ impl PromptCompiler {
     ) -> Result<(TextureModel, Option<Direction>), PromptError> {
         let z = self.latent_of_material(projection, z)?;
         let description = self.model().description();
-        texture.direction = direction::at(&z, description);
-        let found = texture.direction;
-        let Some(bearing) = projection.bearing else {
+        let Some(stroke) = projection.stroke else {
+            texture.direction = direction::at(&z, description);
+            let found = texture.direction;
             return Ok((texture, found));
         };
-        texture.direction = found.or_else(|| direction::said(&z, description));
+        texture.direction = direction::said(&z, description, &stroke);
         let found = texture.direction;
-        Ok((texture.stroked(bearing), found))
+        Ok((texture.stroked(stroke.bearing), found))
     }
 
     /// Puts μ between those of two things, of which films may carry the load.

@@ -44,7 +44,7 @@ mod suggestions;
 pub use asperity_language::reading::Interpretation;
 pub use asperity_language::{phrase, reading, words::grade::woods};
 pub use asperity_texture::model::shift::Shift;
-pub(crate) use bearing::split as split_bearing;
+pub(crate) use bearing::split as split_stroke;
 pub use changed::{STEP, changed, from_base};
 pub use compiled_prompt::{CompiledPrompt, Nearest, Options};
 pub use error::PromptError;

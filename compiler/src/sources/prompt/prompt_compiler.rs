@@ -11,7 +11,9 @@ use super::{
 use crate::{
     edit_memory::{History, Latents, Memory},
     learned::{
-        Certainty, Decoded, Latent, LearnedModel, contact, embedded,
+        Certainty, Decoded, Latent, LearnedModel, contact,
+        direction::Stroke,
+        embedded,
         files::wrong_width,
         friction::Neighbour,
         inference::Backend,
@@ -24,7 +26,7 @@ use crate::{
 use asperity_formats::limits;
 use asperity_io::{diagnostic::Fault, shown::shortened};
 use asperity_texture::model::{
-    Bearing, Provenance, TextureModel,
+    Provenance, TextureModel,
     shift::{Scales, adjust},
 };
 use rand_core::{Rng as _, SeedableRng as _};
@@ -134,7 +136,7 @@ impl PromptCompiler {
             certainty: self.certainty(&reading, unfamiliar),
             tokens: (encoded.tokens, encoded.cut),
             reading,
-            bearing: bearing::split(prompt).1,
+            stroke: bearing::split(prompt).1,
             understood: understood(shown(prompt).trim(), |word| self.text.reads(word)),
         })
     }
@@ -205,7 +207,7 @@ impl PromptCompiler {
             similarity: projection.similarity,
             tokens: projection.tokens,
             reading: projection.reading,
-            bearing: projection.bearing,
+            bearing: projection.stroke.map(|stroke| stroke.bearing),
             direction,
             understood: projection.understood,
         };
@@ -271,7 +273,7 @@ pub struct Projection {
     /// Names and touch qualities in the prompt.
     pub reading: Reading,
     /// The direction of the strokes, where the prompt says one.
-    pub bearing: Option<Bearing>,
+    pub stroke: Option<Stroke>,
     /// Which words the encoder can read.
     pub understood: Understood,
 }

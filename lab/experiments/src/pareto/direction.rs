@@ -34,8 +34,9 @@ const LOST_DB: f64 = 2.0;
 /// Slowest speed at which a relief is stroked, mm/s: below it, it is silent.
 const SLOWEST_MM_S: f64 = 1.0;
 
-/// Speeds that are tried along the axis, as steps of so many octaves: an eighth to twice that of the stroke.
-const SPEED_STEPS: std::ops::RangeInclusive<i32> = -12..=4;
+/// Speeds that are tried along the axis, as steps of so many octaves: a third to twice that of the stroke, so that
+/// the slowest stays among those that a model has.
+const SPEED_STEPS: std::ops::RangeInclusive<i32> = -6..=4;
 const SPEED_OCTAVES: f64 = 0.25;
 
 type Power = [f64; POINTS];
