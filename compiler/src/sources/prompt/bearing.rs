@@ -13,8 +13,25 @@ const LINES: [(&str, &[&str]); 12] = [
     (
         "corduroy",
         &[
-            "rib", "ribs", "ribbing", "wale", "wales", "cord", "cords", "ridge", "ridges",
-            "stripe", "stripes", "pleats", "folds", "crinkles", "wrinkles",
+            "rib",
+            "ribs",
+            "ribbing",
+            "wale",
+            "wales",
+            "cord",
+            "cords",
+            "ridge",
+            "ridges",
+            "stripe",
+            "stripes",
+            "pleats",
+            "folds",
+            "crinkles",
+            "wrinkles",
+            "rows",
+            "rake marks",
+            "fissures",
+            "cracks",
         ],
     ),
     (
@@ -99,7 +116,7 @@ const LINES: [(&str, &[&str]); 12] = [
             "sticks", "slats", "rods", "poles", "pencils", "tubes", "bars",
         ],
     ),
-    ("feather", &["barb", "barbs", "vane", "vanes"]),
+    ("feather", &["barb", "vane", "vanes"]),
     ("paintbrush", &["filaments", "spines"]),
 ];
 /// The same of what leans one way, so that strokes along it have two senses.
@@ -110,14 +127,27 @@ const NAPS: [(&str, &[&str]); 8] = [
         "rabbit fur",
         &["fur", "hair", "hairs", "coat", "wool", "growth"],
     ),
-    ("shark skin", &["scale", "scales", "denticles", "overlap"]),
+    (
+        "shark skin",
+        &[
+            "scale",
+            "scales",
+            "denticles",
+            "overlap",
+            "overlaps",
+            "laps",
+        ],
+    ),
     ("wood rasp", &["teeth", "tooth", "hooks"]),
     (
         "unshaven chin",
         &["whiskers", "stubble", "bristles", "awns"],
     ),
     ("cat's tongue", &["papillae", "thorns", "spikes"]),
-    ("artificial grass", &["blades", "feathers", "needles"]),
+    (
+        "artificial grass",
+        &["blades", "feathers", "needles", "barbs"],
+    ),
 ];
 /// Words that say a direction by themselves.
 const ALONE: [(&str, Bearing); 12] = [
@@ -146,7 +176,7 @@ const BETWEEN: [&str; 9] = [
 ];
 const ADJECTIVES: usize = 2;
 /// How prepositions go with an axis. What stands first is tried first.
-const WAYS: [(&str, Option<Way>); 20] = [
+const WAYS: [(&str, Option<Way>); 21] = [
     ("along with", None),
     ("along the length of", Some(Way::Along)),
     ("along", Some(Way::Along)),
@@ -159,6 +189,7 @@ const WAYS: [(&str, Option<Way>); 20] = [
     ("parallel with", Some(Way::Along)),
     ("in the direction of", Some(Way::With)),
     ("following", Some(Way::Along)),
+    ("between", Some(Way::Along)),
     ("across", Some(Way::Across)),
     ("over", Some(Way::Across)),
     ("crossing", Some(Way::Across)),
@@ -220,7 +251,15 @@ pub(crate) fn split(prompt: &str) -> (Cow<'_, str>, Option<Stroke>) {
     if rest.is_empty() {
         return (prompt.into(), None);
     }
-    (rest.join(", ").into(), Some(stroke))
+    let rest = rest.join(", ");
+    // "Board with flutes, lengthwise".
+    let said: Vec<String> = self::words(&rest)
+        .iter()
+        .map(|word| lower(&rest, word))
+        .collect();
+    let lying = || (0..said.len()).find_map(|at| Some(longest(&said[at..])?.1));
+    let like = stroke.like.or_else(lying);
+    (rest.into(), Some(Stroke { like, ..stroke }))
 }
 
 /// The stroke of a phrase at the beginning of these words, and how many of them it takes.
@@ -250,6 +289,19 @@ fn starts(said: &[String], phrase: &str) -> Option<usize> {
     (said.get(..parts.len())? == parts.as_slice()).then_some(parts.len())
 }
 
+/// What lies along an axis at the beginning of these words: how many it takes, a material that has it, and whether it leans
+/// one way. "Growth rings" comes before "growth".
+fn longest(said: &[String]) -> Option<(usize, &'static str, bool)> {
+    let of = |names: &'static [(&str, &[&str])], leans: bool| {
+        let names =
+            (names.iter()).flat_map(|(like, names)| names.iter().map(move |name| (*like, name)));
+        names.filter_map(move |(like, name)| Some((starts(said, name)?, like, leans)))
+    };
+    of(&NAPS, true)
+        .chain(of(&LINES, false))
+        .max_by_key(|(count, ..)| *count)
+}
+
 /// The stroke of a preposition and what lies along the axis.
 fn named(said: &[String]) -> Option<(usize, Stroke)> {
     let (from, way) = WAYS
@@ -260,27 +312,14 @@ fn named(said: &[String]) -> Option<(usize, Stroke)> {
         .get(from)
         .is_some_and(|word| BETWEEN.contains(&word.as_str()));
     let from = from + usize::from(determined);
-    // "Growth rings" before "growth".
-    let longest = |at: usize| {
-        let behind = said.get(at..)?;
-        let of = |names: &'static [(&str, &[&str])], leans: bool| {
-            let names = names
-                .iter()
-                .flat_map(|(like, names)| names.iter().map(move |name| (*like, name)));
-            names.filter_map(move |(like, name)| Some((starts(behind, name)?, like, leans)))
-        };
-        of(&NAPS, true)
-            .chain(of(&LINES, false))
-            .max_by_key(|(count, ..)| *count)
-    };
-    // "With the deep pile" has one, "against the tiny teeth" meets them.
-    let skipped = if determined && way != Way::With {
-        ADJECTIVES
-    } else {
-        0
+    // "With a deep pile" has one, "with the tiny barbs" follows them.
+    let skipped = match way {
+        _ if !determined => 0,
+        Way::With => usize::from(said.get(from - 1).is_some_and(|word| word == "the")),
+        _ => ADJECTIVES,
     };
     let (at, (count, like, leans)) =
-        (from..=from + skipped).find_map(|at| Some((at, longest(at)?)))?;
+        (from..=from + skipped).find_map(|at| Some((at, longest(said.get(at..)?)?)))?;
     let bearing = match (way, leans) {
         (Way::Along, _) => Bearing::Along,
         (Way::Across, _) => Bearing::Across,
