@@ -20,6 +20,8 @@ struct Cost {
     law: f64,
     /// Per contact law.
     contact: f64,
+    /// Per direction.
+    axis: f64,
     /// For a plane, a sphere and a box.
     surfaces: [f64; 3],
 }
@@ -55,7 +57,7 @@ fn table(counted: &[(&str, Vec<u64>)]) -> String {
     let rows = counted.len() * SCENE_CASES.len();
     let _ = writeln!(
         text,
-        "pub(super) const MEASURED: [(&str, [usize; 8], u64); {rows}] = ["
+        "pub(super) const MEASURED: [(&str, [usize; 9], u64); {rows}] = ["
     );
     for (processor, worst) in counted {
         for (case, count) in SCENE_CASES.iter().zip(worst) {
@@ -65,13 +67,14 @@ fn table(counted: &[(&str, Vec<u64>)]) -> String {
                 triangles,
                 laws,
                 contacts,
+                axes,
                 apart: [planes, spheres, boxes],
                 ..
             } = case;
             let planes = planes + TOUCHED;
             let _ = writeln!(
                 text,
-                "    ({processor:?}, [{poles}, {zeros}, {triangles}, {laws}, {contacts}, {planes}, {spheres}, {boxes}], {count}),"
+                "    ({processor:?}, [{poles}, {zeros}, {triangles}, {laws}, {contacts}, {axes}, {planes}, {spheres}, {boxes}], {count}),"
             );
         }
     }
@@ -88,7 +91,7 @@ use super::cost::Cost;
 ";
 const MEASURED: &str = "\
 /// The costliest tick of 12,000, in QEMU: poles, zeros that are mixed and converted, triangles,
-/// laws of friction, contact laws, planes, spheres, boxes.
+/// laws of friction, contact laws, directions, planes, spheres, boxes.
 #[cfg(test)]
 ";
 
@@ -96,31 +99,32 @@ impl Cost {
     /// Slopes between the ends of what was counted; the base such that no case costs more
     /// than the model says.
     fn fit(worst: &[u64]) -> Self {
-        let at = |poles, zeros, triangles, [laws, contacts]: [u32; 2], apart| {
+        let at = |poles, zeros, triangles, [laws, contacts, axes]: [u32; 3], apart| {
             let wanted = |case: &SceneCase| {
                 (
                     case.poles,
                     case.zeros,
                     case.triangles,
-                    [case.laws, case.contacts],
+                    [case.laws, case.contacts, case.axes],
                     case.apart,
-                ) == (poles, zeros, triangles, [laws, contacts], apart)
+                ) == (poles, zeros, triangles, [laws, contacts, axes], apart)
             };
             let index = SCENE_CASES.iter().position(wanted);
             index.map_or(f64::NAN, |index| worst[index] as f64)
         };
-        let alone = |poles, zeros| at(poles, zeros, 56, [0; 2], [0; 3]);
+        let alone = |poles, zeros| at(poles, zeros, 56, [0; 3], [0; 3]);
         let middle = alone(10, 0);
-        let one = |apart| (at(10, 0, 56, [0; 2], apart) - middle) / 8.0;
+        let one = |apart| (at(10, 0, 56, [0; 3], apart) - middle) / 8.0;
         let mut cost = Self {
             base: 0.0,
             pole: tenths((alone(20, 0) - alone(4, 0)) / 16.0),
             zero: tenths((alone(20, 18) - alone(20, 0)) / 18.0),
             triangle: tenths(
-                (at(10, 0, 98, [0; 2], [0; 3]) - at(10, 0, 12, [0; 2], [0; 3])) / 86.0,
+                (at(10, 0, 98, [0; 3], [0; 3]) - at(10, 0, 12, [0; 3], [0; 3])) / 86.0,
             ),
-            law: tenths(at(10, 0, 56, [1, 0], [0; 3]) - middle),
-            contact: tenths(at(10, 0, 56, [0, 1], [0; 3]) - middle),
+            law: tenths(at(10, 0, 56, [1, 0, 0], [0; 3]) - middle),
+            contact: tenths(at(10, 0, 56, [0, 1, 0], [0; 3]) - middle),
+            axis: tenths(at(10, 0, 56, [0, 0, 1], [0; 3]) - middle),
             surfaces: [one([8, 0, 0]), one([0, 8, 0]), one([0, 0, 8])].map(tenths),
         };
         let missing = SCENE_CASES
@@ -143,6 +147,7 @@ impl Cost {
             triangle,
             law,
             contact,
+            axis,
             surfaces: [plane, sphere, cuboid],
         } = self;
         format!(
@@ -154,6 +159,7 @@ impl Cost {
         triangle: {triangle:.1},
         law: {law:.1},
         contact: {contact:.1},
+        axis: {axis:.1},
         surfaces: [{plane:.1}, {sphere:.1}, {cuboid:.1}],
         above_percent: {above:.1},
     }},\n"
@@ -170,6 +176,7 @@ impl Cost {
             + self.triangle * f64::from(case.triangles)
             + self.law * f64::from(case.laws)
             + self.contact * f64::from(case.contacts)
+            + self.axis * f64::from(case.axes)
             + touched
             + apart.map(|(cost, n)| cost * f64::from(n)).sum::<f64>()
     }

@@ -1,7 +1,9 @@
 //! The libraries that the session embeds: the textures of the x86 benches, so that the figures
 //! can be compared, and those that the cost model is fitted to.
 
-use asperity_benches::texture::{texture, texture_on, texture_with_contact, texture_with_law};
+use asperity_benches::texture::{
+    texture, texture_on, texture_with_contact, texture_with_direction, texture_with_law,
+};
 use asperity_formats::{
     Numerator,
     library::{encode_library, encoded_len},
@@ -28,6 +30,10 @@ pub(crate) fn write(folder: &Path) -> Result<(), Box<dyn std::error::Error>> {
             texture_with_contact(10, Numerator::Nyquist),
         ),
         ("10 nyquist, law", texture_with_law(10, Numerator::Nyquist)),
+        (
+            "10 nyquist, ribs",
+            texture_with_direction(10, Numerator::Nyquist),
+        ),
         ("10+8", texture(10, Numerator::Lsf)),
         ("15+13", texture(15, Numerator::Lsf)),
         ("16 nyquist", texture(16, Numerator::Nyquist)),

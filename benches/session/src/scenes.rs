@@ -41,6 +41,8 @@ pub struct SceneCase {
     pub laws: u32,
     /// Contact laws of its texture, with every part: 0 or 1.
     pub contacts: u32,
+    /// Directions of its texture: 0 or 1.
+    pub axes: u32,
     /// Planes, spheres and boxes beside what is touched.
     pub apart: [u32; 3],
 }
@@ -53,6 +55,7 @@ const fn case(texture: &'static str, poles: u32, zeros: u32) -> SceneCase {
         triangles: 56,
         laws: 0,
         contacts: 0,
+        axes: 0,
         apart: [0; 3],
     }
 }
@@ -69,7 +72,7 @@ const fn beside(apart: [u32; 3]) -> SceneCase {
 }
 
 /// Every case.
-pub const SCENE_CASES: [SceneCase; 18] = [
+pub const SCENE_CASES: [SceneCase; 19] = [
     case("4 nyquist", 4, 0),
     case("10 nyquist", 10, 0),
     case("20 nyquist", 20, 0),
@@ -89,6 +92,10 @@ pub const SCENE_CASES: [SceneCase; 18] = [
     SceneCase {
         contacts: 1,
         ..case("10 nyquist, contact", 10, 0)
+    },
+    SceneCase {
+        axes: 1,
+        ..case("10 nyquist, ribs", 10, 0)
     },
     beside([8, 0, 0]),
     beside([0, 8, 0]),

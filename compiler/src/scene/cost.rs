@@ -4,7 +4,7 @@ use asperity_formats::Solid;
 use asperity_texture::model::{ModelGrid, Numerator, TextureModel};
 
 /// A model of the executed instructions of the costliest tick on a processor: a sum over poles,
-/// zeros, triangles, a law of friction, a contact law and surfaces that is never below what was counted.
+/// zeros, triangles, a law of friction, a contact law, a direction and surfaces that is never below what was counted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Cost {
     /// Name of the processor.
@@ -21,6 +21,8 @@ pub(super) struct Cost {
     pub(super) law: f64,
     /// Cost of the texture's contact law.
     pub(super) contact: f64,
+    /// Cost of the texture's direction.
+    pub(super) axis: f64,
     /// Cost of the distance to a plane, a sphere and a box.
     pub(super) surfaces: [f64; 3],
     /// The most that the sum is above a count, percent.
@@ -51,7 +53,7 @@ impl Cost {
     /// Executed instructions of the costliest tick.
     pub(super) fn instructions(
         &self,
-        [poles, zeros, triangles, laws, contacts]: [usize; 5],
+        [poles, zeros, triangles, laws, contacts, axes]: [usize; 6],
         surfaces: Surfaces,
     ) -> u64 {
         let surfaces = self.surfaces.iter().zip(surfaces.0);
@@ -61,14 +63,15 @@ impl Cost {
             + self.triangle * triangles as f64
             + self.law * laws as f64
             + self.contact * contacts as f64
+            + self.axis * axes as f64
             + surfaces.map(|(cost, n)| cost * n as f64).sum::<f64>();
         cost.ceil() as u64
     }
 }
 
-/// Returns the counts that the cost of a texture depends on: poles, zeros, triangles, laws of friction and
-/// contact laws (0 or 1).
-pub(super) fn sizes(texture: &TextureModel) -> [usize; 5] {
+/// Returns the counts that the cost of a texture depends on: poles, zeros, triangles, laws of friction, contact laws and
+/// directions (0 or 1).
+pub(super) fn sizes(texture: &TextureModel) -> [usize; 6] {
     let grid = &texture.grid;
     let laws = usize::from(texture.friction.law.is_some());
     let contacts = usize::from(texture.contact.is_some());
@@ -78,6 +81,7 @@ pub(super) fn sizes(texture: &TextureModel) -> [usize; 5] {
         grid.triangles.len(),
         laws,
         contacts,
+        usize::from(texture.direction.is_some()),
     ]
 }
 

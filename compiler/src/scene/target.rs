@@ -120,6 +120,7 @@ mod tests {
                 triangles,
                 laws,
                 contacts,
+                axes,
                 planes,
                 spheres,
                 boxes,
@@ -130,12 +131,13 @@ mod tests {
             let cost = COSTS.iter().find(|cost| cost.processor == processor);
             let cost = cost.expect("an entry");
             let surfaces = Surfaces([planes, spheres, boxes]);
-            let modelled = cost.instructions([poles, zeros, triangles, laws, contacts], surfaces);
+            let modelled =
+                cost.instructions([poles, zeros, triangles, laws, contacts, axes], surfaces);
             // Both sides are rounded up to a whole instruction.
             let most = (count as f64 * (1.0 + cost.above_percent / 100.0)).ceil() as u64;
             assert!(
                 (count..=most).contains(&modelled),
-                "{processor}, {poles} poles, {zeros} zeros, {laws} laws, {contacts} contact laws: {count} counted, {modelled} modelled"
+                "{processor}, {poles} poles, {zeros} zeros, {laws} laws, {contacts} contact laws, {axes} directions: {count} counted, {modelled} modelled"
             );
         }
     }
