@@ -5,14 +5,24 @@ import { Prompt } from "./prompt.js";
 import { certaintyText, showNearest, showReading } from "./reading.js";
 import { texts } from "./texts.js";
 
+/** An arrow along the ribs, the grain or the nap, and what a stroke along it meets. */
+function axisText({ axis, power_ratio, speed_ratio, mu_forward, mu_backward }) {
+  const level_db = 10 * Math.log10(power_ratio) - 20 * Math.log10(speed_ratio);
+  const mu = mu_forward.toFixed(2) === mu_backward.toFixed(2) ? [mu_forward] : [mu_forward, mu_backward];
+  const along = power_ratio > 0 ? texts.surface.along(level_db, speed_ratio, mu) : texts.surface.silent_along;
+  return `${texts.surface.axis(axis)} ${along}`;
+}
+
 function showFacts(texture) {
   find("surface-title").textContent = texture?.name ?? texts.surface.empty;
   if (!texture) return;
   document.title = texts.titled(texture.name);
   const { asset_bytes, model_rate_hz, worklet_rate_hz } = texture;
+  const direction = texture.inspect?.direction;
   const rerated = worklet_rate_hz !== model_rate_hz;
   find("facts").replaceChildren(
     element("span", {}, `${texts.surface.kilobytes(asset_bytes)} · ${texts.surface.rate(model_rate_hz)}`),
+    ...(direction ? [" ", element("span", { class: "badge", id: "axis" }, axisText(direction))] : []),
     ...(rerated ? [" ", element("span", { class: "badge" }, texts.surface.rerated(model_rate_hz, worklet_rate_hz))] : []));
 }
 

@@ -36,6 +36,15 @@ impl Surface {
         }
     }
 
+    /// The surface mirrored at its diagonal, so that what ran across runs down.
+    pub(crate) fn turned(&self) -> Self {
+        let texel = |n: usize| self.texels[n % self.size * self.size + n / self.size];
+        Self {
+            size: self.size,
+            texels: (0..self.texels.len()).map(texel).collect(),
+        }
+    }
+
     /// Stamps a shape around (u, v) within `radius` patches. `shape` maps an offset from the centre, in
     /// patches, to the texel there, if any. A higher texel hides a lower one.
     pub(crate) fn stamp(

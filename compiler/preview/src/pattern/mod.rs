@@ -32,9 +32,17 @@ macro_rules! patterns {
 
         /// The surface of a pattern in a look, `size` pixels wide and high.
         pub(crate) fn draw(pattern: Pattern, appearance: &Appearance, size: usize) -> Surface {
-            match pattern { $(Pattern::$name => $module::$function(appearance, size),)* }
+            let surface = match pattern { $(Pattern::$name => $module::$function(appearance, size),)* };
+            if lies_across(pattern) { surface.turned() } else { surface }
         }
     };
+}
+
+/// Returns true for a pattern whose synthesis draws ribs, grain or brush marks across the picture. They run up and down in
+/// every picture, as they run along y in a texture.
+const fn lies_across(pattern: Pattern) -> bool {
+    use Pattern::{Board, Brushed, Grooves, Planks, Ribs};
+    matches!(pattern, Board | Brushed | Grooves | Planks | Ribs)
 }
 
 patterns! {

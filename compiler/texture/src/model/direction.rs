@@ -121,6 +121,12 @@ impl Direction {
         }
     }
 
+    /// Returns true if μ against the axis is another than towards it: if there is a nap.
+    #[must_use]
+    pub fn leans(&self) -> bool {
+        (self.mu_backward / self.mu_forward - 1.0).abs() > 5e-3
+    }
+
     /// The numbers beside the axis: of power, of speed, and of μ towards the axis and against it.
     #[must_use]
     pub const fn ratios(&self) -> [f64; 4] {
@@ -150,7 +156,7 @@ impl fmt::Display for Direction {
             write!(f, "nothing vibrates")?;
         }
         write!(f, ", μ × {:.2}", self.mu_forward)?;
-        if (self.mu_backward / self.mu_forward - 1.0).abs() < 5e-3 {
+        if !self.leans() {
             return Ok(());
         }
         write!(f, "; against the nap × {:.2}", self.mu_backward)

@@ -2,7 +2,7 @@
 
 use asperity_io::shown::counted;
 use asperity_plot::{Align, Canvas, Rect, Stroke, TextStyle, VAlign, ink, size};
-use asperity_texture::model::{Numerator, TextureModel, VertexKind};
+use asperity_texture::model::{Direction, Numerator, TextureModel, VertexKind};
 
 /// Sizes of the asset that a sheet is drawn from, bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -127,14 +127,13 @@ fn origin(model: &TextureModel) -> String {
     parts.join("   ·   ")
 }
 
-/// Remarks that a reader should know.
+/// The direction, and remarks that a reader should know.
 fn remarks(model: &TextureModel) -> String {
-    model
-        .provenance
-        .notes
-        .split_whitespace()
-        .collect::<Vec<_>>()
-        .join(" ")
+    let notes: Vec<&str> = model.provenance.notes.split_whitespace().collect();
+    let direction = model.direction.as_ref().map(Direction::to_string);
+    let parts = direction.into_iter().chain([notes.join(" ")]);
+    let parts: Vec<String> = parts.filter(|part| !part.is_empty()).collect();
+    parts.join("   ·   ")
 }
 
 fn rate(sample_rate_hz: f64) -> String {

@@ -14,8 +14,8 @@ mod taps;
 pub use header::AssetBytes;
 
 use crate::views::preview::Stored;
-use asperity_plot::{Canvas, Color, PlotError, Rect};
-use asperity_texture::model::TextureModel;
+use asperity_plot::{Canvas, Color, PlotError, Rect, Stroke, ink};
+use asperity_texture::model::{Direction, TextureModel};
 
 /// Width of the sheet, pixels.
 pub const WIDTH_PX: u32 = 2400;
@@ -62,6 +62,10 @@ fn compose(
     if let Some(picture) = picture {
         let left = width - SIDE - PICTURE_MARGIN;
         draw(&mut canvas, (left, PICTURE_TOP), picture);
+        if let Some(direction) = &model.direction {
+            let center = (left + 0.5 * SIDE, PICTURE_TOP + 0.5 * SIDE);
+            arrow(&mut canvas, center, direction);
+        }
         header.width = left;
     }
     header::draw(&mut canvas, header, model, bytes);
@@ -105,6 +109,40 @@ mod tests;
 
 /// Width and height on the sheet, pixels.
 const SIDE: f32 = 154.0;
+
+/// Draws the axis over the picture, with a head at each end, or at the end to which a nap lies. The picture shows the plane
+/// z = 0, x to the right and y upwards.
+fn arrow(canvas: &mut Canvas, (x, y): (f32, f32), direction: &Direction) {
+    let [right, up] = [direction.axis[0], direction.axis[1]].map(|part| 0.32 * SIDE * part as f32);
+    let length = right.hypot(up);
+    if length < 1.0 {
+        return;
+    }
+    let (end, start) = ((x + right, y - up), (x - right, y + up));
+    let (ahead, aside) = (
+        (right / length, -up / length),
+        (up / length, right / length),
+    );
+    let head = |(x, y): (f32, f32), way: f32| {
+        [-1.0, 1.0].map(|side| {
+            let back = (x - 14.0 * way * ahead.0, y - 14.0 * way * ahead.1);
+            [
+                (x, y),
+                (back.0 + 9.0 * side * aside.0, back.1 + 9.0 * side * aside.1),
+            ]
+        })
+    };
+    let mut lines = vec![[start, end]];
+    lines.extend(head(end, 1.0));
+    if !direction.leans() {
+        lines.extend(head(start, -1.0));
+    }
+    for (color, width) in [(ink::PAPER, 8.0), (ink::BLACK, 3.0)] {
+        for line in &lines {
+            canvas.line(line, Stroke::new(color, width), None);
+        }
+    }
+}
 
 /// Draws the picture at (x, y), each pixel the mean of those that it stands for.
 fn draw(canvas: &mut Canvas, (x, y): (f32, f32), picture: &Stored) {
