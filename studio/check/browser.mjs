@@ -178,6 +178,36 @@ async function givesWay(browser) {
   await visit.end();
 }
 
+/** Ribs have an arrow on the page, and strokes along them are quieter. */
+async function hasAxis(browser) {
+  const visit = await Visit.begin(browser, address);
+  const { page } = visit;
+  await visit.compile("brushed stainless steel");
+  const said = await page.textContent("#axis");
+  assert(said.startsWith("↕ along −"), `brush marks have an arrow: ${said}`);
+  const { x, y, width, height } = await page.locator("#stage").boundingBox();
+  const side = 0.3 * Math.min(width, height);
+  const loudness = async (right, down) => {
+    await page.mouse.move(x + width / 2 - side * right, y + height / 2 - side * down);
+    await page.mouse.down();
+    await visit.take();
+    for (let step = 0; step < 240; step++) {
+      const way = Math.sin(step / 10);
+      await page.mouse.move(x + width / 2 + side * right * way, y + height / 2 + side * down * way);
+      await page.waitForTimeout(8);
+    }
+    const ticks = (await visit.take()).filter(({ depth_mm, speed_mm_s }) => depth_mm > 0 && speed_mm_s > 20);
+    await page.mouse.up();
+    const relative = ticks.reduce((sum, { vib_m_s2, speed_mm_s }) => sum + (vib_m_s2 / speed_mm_s) ** 2, 0);
+    return 10 * Math.log10(relative / ticks.length);
+  };
+  const [across_db, along_db] = [await loudness(1, 0), await loudness(0, 1)];
+  assert(across_db > along_db + 2, `strokes along them are quieter by ${(across_db - along_db).toFixed(1)} dB`);
+  await visit.compile("smooth polished glass");
+  assert((await page.$("#axis")) === null, "glass has no axis");
+  await visit.end();
+}
+
 async function fingers(visit) {
   const { page } = visit;
   const before = await page.getAttribute("#scale", "data-text");
@@ -332,6 +362,7 @@ try {
   }
   await devices(browser);
   await givesWay(browser);
+  await hasAxis(browser);
   await failures(browser);
   console.log(`${count} assertions in ${((Date.now() - began) / 1000).toFixed(0)} s`);
 } finally {
