@@ -1,7 +1,7 @@
 //! The schema and the example of `docs/data/` are those of the format.
 
 use asperity::{
-    model::{Adhesion, ContactLaw, Drag, Imprint, Numerator, Relaxation, SpringPoint},
+    model::{Adhesion, ContactLaw, Direction, Drag, Imprint, Numerator, Relaxation, SpringPoint},
     sources::{
         builtin,
         model_file::{from_json, to_json},
@@ -52,6 +52,7 @@ fn the_schema_for_editors_has_the_keys_of_the_format() {
     }
     prompted.provenance.prompt = Some("grit".into());
     prompted.contact = Some(giving_way());
+    prompted.direction = Some(Direction::NONE);
     let documents: Vec<Value> = [builtin::texture(), prompted]
         .iter()
         .map(|texture| serde_json::from_slice(&to_json(texture)).unwrap())

@@ -4,9 +4,9 @@
 use crate::{
     draw::Draw,
     force_limits::ForceLimits,
-    texture::{HostSlot, TextureKind, random, random_law},
+    texture::{HostSlot, TextureKind, random, random_direction, random_law},
 };
-use asperity_formats::{Asset, Numerator};
+use asperity_formats::{Asset, Direction, Numerator};
 use asperity_runtime::{
     Config, LoadError, RenderArithmetic, Renderer, Sample, Solid, State, VibrationAxis,
     arithmetic::Scalar as _,
@@ -133,6 +133,16 @@ fn texture<A: RenderArithmetic>(seed: u64, ticks_per_sample: u8) -> Option<Box<H
         // μ times a factor is 10 at most.
         let highest = (9.99 / f64::from(texture.mu)).min(7.99);
         texture.law = random_law(&mut draw, 400.0, highest);
+    }
+    if draw.below(3) == 0 {
+        let direction = random_direction(&mut draw);
+        let [mu_forward, mu_backward] =
+            [direction.mu_forward, direction.mu_backward].map(|mu| mu / 2.0);
+        texture.direction = Some(Direction {
+            mu_forward,
+            mu_backward,
+            ..direction
+        });
     }
     texture.coupling.vib_s2_m = [0.05, 1.0, 1000.0][draw.below(3)];
     texture.coupling.stiffness_n_m = [1.0, 500.0, 1e5][draw.below(3)];

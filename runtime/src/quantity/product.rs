@@ -69,7 +69,7 @@ products! {
     MetrePerSecond * Ratio = MetrePerSecond;
     // Direction.
     DirectionFactor * DirectionFactor = DirectionFactor;
-    MillimetrePerSecond * DirectionFactor = MillimetrePerSecond;
+    MillimetrePerSecond * DirectionFactor = MillimetrePerSecond, at most 32_000.0;
     ExcitationLevel * DirectionFactor = ExcitationLevel;
     // The model and its samples.
     Coordinate * Slope = Weight, at most FARTHEST_WEIGHT;
