@@ -8,7 +8,10 @@ use asperity_runtime::{
     Config, Fixed, Flags, Float, RenderArithmetic, Renderer, Sample, SceneState, State,
     arithmetic::Scalar as _,
 };
-use asperity_tests::texture::{HostSlot, Model, Texture, TextureKind, random};
+use asperity_tests::{
+    draw::Draw,
+    texture::{HostSlot, Model, Texture, TextureKind, random, random_direction},
+};
 use std::f64::consts::TAU;
 
 const DEPTH_M: f64 = 2e-3;
@@ -439,4 +442,45 @@ fn ribs_go_over_into_a_plain_surface() {
             assert!((pair[1] - pair[0]).abs() < 0.25 * plain, "{pair:?}");
         }
     });
+}
+
+/// Friction that depends on the direction only takes energy: no closed path in the plane gains any.
+#[test]
+fn no_closed_path_over_a_nap_gains_energy() {
+    let mut draw = Draw::new(17);
+    for _ in 0..200 {
+        let direction = Direction {
+            power_ratio: 1.0,
+            ..random_direction(&mut draw)
+        };
+        let mut texture = white(direction);
+        for vertex in &mut texture.vertices {
+            vertex.sigma_m_s2 = 0.0;
+        }
+        let bytes = texture.encode();
+        let config = Config::default();
+        let renderer = Renderer::new(&config).unwrap();
+        let mut slot = Box::new(HostSlot::<Float>::new());
+        slot.load(&Asset::parse(&bytes).unwrap(), 1000.0).unwrap();
+        let mut state = State::new(1);
+        let (a, b) = (draw.range(1e-4, 0.01), draw.range(1e-4, 0.01));
+        let (rate, phase) = (draw.range(2.0, 30.0), draw.range(0.0, TAU));
+        let ticks = (6000.0 * TAU / rate / 10.0) as usize;
+        let place = |tick: usize| {
+            let turn = TAU * 3.0 * tick as f64 / ticks as f64;
+            [
+                a * turn.sin(),
+                b * ((2.0 * turn + phase).sin() - phase.sin()),
+            ]
+        };
+        let (mut work_j, mut force, mut last) = (0.0, [0.0; 2], place(0));
+        for tick in 0..=ticks {
+            let now = place(tick);
+            work_j += force[0] * (now[0] - last[0]) + force[1] * (now[1] - last[1]);
+            let sample = Sample::at([now[0] as f32, now[1] as f32, -DEPTH_M as f32]);
+            let [x, y, _] = renderer.tick(&slot, &mut state, &sample).force_n;
+            (force, last) = ([x.into(), y.into()], now);
+        }
+        assert!(work_j < 1e-8, "{direction:?}: {work_j} J");
+    }
 }
