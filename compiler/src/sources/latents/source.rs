@@ -273,7 +273,8 @@ impl Source for FromLatents {
         texture.friction.law = self.law.clone().map(|law| law.beside(mu));
         let prompt = self.provenance.prompt.as_deref();
         texture.direction = self.direction;
-        if let Some(stroke) = prompt.and_then(|prompt| split_stroke(prompt).1) {
+        let stroke = prompt.and_then(|prompt| split_stroke(prompt).1);
+        if let Some(stroke) = stroke.filter(|_| self.direction.is_none()) {
             // What was compiled along the ribs is the same in every direction.
             let (z, description) = (&self.latents.slide, model.description());
             texture.direction = direction::said(z, description, &stroke);

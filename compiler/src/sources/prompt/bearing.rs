@@ -199,6 +199,8 @@ const WAYS: [(&str, Option<Way>); 21] = [
     ("with", Some(Way::With)),
     ("against", Some(Way::Against)),
 ];
+/// Words of a prompt at most, of which some say a direction: a sentence tells of a stroke, and asks for the material.
+const MOST_WORDS: usize = 14;
 /// Words of a phrase at most.
 const LONGEST: usize = 8;
 
@@ -206,6 +208,9 @@ const LONGEST: usize = 8;
 /// says nothing else stays as it is.
 pub(crate) fn split(prompt: &str) -> (Cow<'_, str>, Option<Stroke>) {
     let words = words(prompt);
+    if words.len() > MOST_WORDS || words.iter().any(|word| is_of_clause(&lower(prompt, word))) {
+        return (prompt.into(), None);
+    }
     let mut found: Vec<(Range<usize>, Stroke)> = Vec::new();
     let mut at = 0;
     while at < words.len() {
@@ -335,6 +340,15 @@ fn named(said: &[String]) -> Option<(usize, Stroke)> {
     Some((at + count, Stroke { bearing, like }))
 }
 
+/// Returns true for a word that only a clause has: "before you gut the bream, run a finger against the scales".
+fn is_of_clause(word: &str) -> bool {
+    const WORDS: [&str; 14] = [
+        "i", "you", "he", "she", "we", "they", "my", "your", "his", "her", "have", "before",
+        "after", "when",
+    ];
+    WORDS.contains(&word)
+}
+
 /// How a preposition goes with an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Way {
@@ -433,6 +447,7 @@ mod tests {
             "a cat with fur",
             "rough against the skin",
             "hair along with feathers",
+            "before you gut the bream, run a finger against the scales",
         ] {
             assert_eq!(split(prompt), (prompt.into(), None), "{prompt}");
         }
