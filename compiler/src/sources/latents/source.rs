@@ -296,6 +296,9 @@ impl Source for FromLatents {
 
 /// The direction between those of two textures, of which either may have none.
 fn direction_between(a: Option<Direction>, b: Option<Direction>, t: f64) -> Option<Direction> {
+    if t <= 0.0 || t >= 1.0 {
+        return if t <= 0.0 { a } else { b };
+    }
     let axis = a.or(b)?.axis;
     let [a, b] = [a, b].map(|direction| direction.unwrap_or(Direction::NONE));
     let between = Direction::mixed([(1.0 - t, &a), (t, &b)].into_iter());
