@@ -31,6 +31,7 @@
 //! #         friction: Friction { mu: 0.5, anchors: Vec::new(), law: None },
 //! #         wall: defaults::wall(),
 //! #         contact: None,
+//! #         direction: None,
 //! #         gains: defaults::gains(),
 //! #         provenance: Provenance::default(),
 //! #     }
