@@ -11,7 +11,7 @@ use crate::{
     friction_law::LawPoint,
     grid::{Numerator, Vertex, VertexKind},
     header::{
-        self, ENTRY_LEN, FIXED_LEN, HAPTIC, MAGIC, VERSION_WITH_LAW, VERSION_WITH_MORE,
+        self, ENTRY_LEN, FIXED_LEN, HAPTIC, MAGIC, VERSION_WITH_LAW, VERSION_WITH_OPTIONAL,
         VERSION_WITHOUT_LAW,
     },
     lsf::LsfCode,
@@ -122,8 +122,8 @@ pub struct ContactParts<'a> {
 pub fn encode(parts: &AssetParts<'_>, out: &mut [u8]) -> Result<usize, EncodeError> {
     let ancillary =
         usize::from(parts.provenance.is_some()) + usize::from(parts.preview_png.is_some());
-    let more = usize::from(parts.contact.is_some()) + usize::from(parts.direction.is_some());
-    let sections = HAPTIC.len() + more + ancillary;
+    let optional = usize::from(parts.contact.is_some()) + usize::from(parts.direction.is_some());
+    let sections = HAPTIC.len() + optional + ancillary;
     let table_end = FIXED_LEN + sections * ENTRY_LEN;
     let mut table = Table {
         entry: FIXED_LEN,
@@ -167,8 +167,8 @@ pub fn encode(parts: &AssetParts<'_>, out: &mut [u8]) -> Result<usize, EncodeErr
     let total_len = table.section;
     let mut writer = Writer::new(out, 0);
     writer.bytes(&MAGIC)?;
-    writer.u16(if more > 0 {
-        VERSION_WITH_MORE
+    writer.u16(if optional > 0 {
+        VERSION_WITH_OPTIONAL
     } else if parts.friction.law.is_empty() {
         VERSION_WITHOUT_LAW
     } else {

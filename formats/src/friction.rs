@@ -3,7 +3,7 @@
 use crate::{
     error::{FormatError, in_range},
     friction_law::{FrictionLaw, LawPoint},
-    header::{VERSION_WITH_LAW, VERSION_WITH_MORE, VERSION_WITHOUT_LAW},
+    header::{VERSION_WITH_LAW, VERSION_WITH_OPTIONAL, VERSION_WITHOUT_LAW},
     limits,
     wire::Reader,
 };
@@ -37,7 +37,7 @@ impl<'a> Friction<'a> {
         let has_law = match version {
             ..VERSION_WITH_LAW => false,
             VERSION_WITH_LAW => true,
-            VERSION_WITH_MORE.. => !reader.is_empty(),
+            VERSION_WITH_OPTIONAL.. => !reader.is_empty(),
         };
         if has_law {
             friction.law = Some(FrictionLaw::parse(&mut reader, friction.mu)?);

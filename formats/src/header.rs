@@ -3,13 +3,13 @@
 use crate::{checksum::crc32, error::FormatError, limits, wire::array_at};
 
 /// Latest version of the asset format; an asset is written in the lowest one that can hold it.
-pub const VERSION: u16 = VERSION_WITH_MORE;
+pub const VERSION: u16 = VERSION_WITH_OPTIONAL;
 /// The version of an asset whose friction has no law.
 pub(crate) const VERSION_WITHOUT_LAW: u16 = 1;
 /// The version of an asset whose friction has a law.
 pub(crate) const VERSION_WITH_LAW: u16 = 2;
-/// The version of an asset with sections of [`MORE`].
-pub(crate) const VERSION_WITH_MORE: u16 = 3;
+/// The version of an asset with sections of [`OPTIONAL`].
+pub(crate) const VERSION_WITH_OPTIONAL: u16 = 3;
 /// First bytes of an asset.
 pub(crate) const MAGIC: [u8; 4] = *b"ASPT";
 /// Bytes before the section table.
@@ -40,7 +40,7 @@ pub(crate) const HAPTIC: [([u8; 4], &str); 5] = [
     (COUPLING, "surface"),
 ];
 /// The haptic sections of version 3, behind the others in this order; at least one of them.
-pub(crate) const MORE: [([u8; 4], &str); 2] = [(CONTACT, "contact"), (AXIS, "direction")];
+pub(crate) const OPTIONAL: [([u8; 4], &str); 2] = [(CONTACT, "contact"), (AXIS, "direction")];
 
 /// Location and checksum of a section in an asset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,7 +64,7 @@ impl SectionInfo {
 
     /// The tag as the name that errors use.
     pub(crate) fn label(&self) -> &'static str {
-        let mut haptic = HAPTIC.iter().chain(&MORE);
+        let mut haptic = HAPTIC.iter().chain(&OPTIONAL);
         haptic.find(|(tag, _)| *tag == self.tag).map_or_else(
             || match self.tag {
                 PROVENANCE => "provenance",
@@ -166,11 +166,11 @@ impl<'a> Header<'a> {
                 });
             }
         }
-        if (self.haptic_count() > HAPTIC.len()) != (self.version >= VERSION_WITH_MORE) {
+        if (self.haptic_count() > HAPTIC.len()) != (self.version >= VERSION_WITH_OPTIONAL) {
             let next = self.sections().nth(HAPTIC.len());
-            let more = next.filter(|section| MORE.iter().any(|(tag, _)| *tag == section.tag));
+            let found = next.filter(|section| OPTIONAL.iter().any(|(tag, _)| *tag == section.tag));
             return Err(FormatError::Section {
-                tag: more.map_or(CONTACT, |section| section.tag),
+                tag: found.map_or(CONTACT, |section| section.tag),
                 reason: "version 3 has CONT, AXIS or both, and no earlier one has either",
             });
         }
@@ -241,9 +241,9 @@ impl<'a> Header<'a> {
 
 /// Number of haptic sections at the front of these tags, of which the first five are in order.
 pub(crate) fn count_haptic(tags: impl Iterator<Item = [u8; 4]>) -> usize {
-    let mut more = MORE.iter();
+    let mut optional = OPTIONAL.iter();
     let behind = tags
         .skip(HAPTIC.len())
-        .take_while(|tag| more.any(|(next, _)| next == tag));
+        .take_while(|tag| optional.any(|(next, _)| next == tag));
     HAPTIC.len() + behind.count()
 }

@@ -6,7 +6,7 @@ use crate::{
     error::EncodeError,
     friction::Friction,
     header::{
-        ENTRY_LEN, FIXED_LEN, FRICTION, HAPTIC, MAGIC, VERSION_WITH_MORE, VERSION_WITHOUT_LAW,
+        ENTRY_LEN, FIXED_LEN, FRICTION, HAPTIC, MAGIC, VERSION_WITH_OPTIONAL, VERSION_WITHOUT_LAW,
         count_haptic,
     },
     wire::Writer,
@@ -46,7 +46,7 @@ pub fn assemble(sections: &[([u8; 4], &[u8])], out: &mut [u8]) -> Result<usize, 
     writer.bytes(&MAGIC)?;
     let friction = sections.iter().find(|(tag, _)| *tag == FRICTION);
     writer.u16(if haptic > HAPTIC.len() {
-        VERSION_WITH_MORE
+        VERSION_WITH_OPTIONAL
     } else {
         friction.map_or(VERSION_WITHOUT_LAW, |(_, body)| Friction::version_of(body))
     })?;

@@ -9,7 +9,7 @@ use crate::{
     load_error::LoadError,
     math::{max, sqrt},
 };
-use asperity_formats::{Asset, LawPoint, Solid};
+use asperity_formats::{Asset, Direction, LawPoint, Solid};
 
 /// Checks against the range of an arithmetic.
 pub trait Checked: Arithmetic {
@@ -83,7 +83,7 @@ const SLOWEST_GRID_MM_S: f32 = 1.0;
 const WEAKEST_GRID_N: f32 = 0.01;
 const LOUDEST_M_S2: f32 = 500.0;
 /// Numbers of this unit end at 8.
-const LARGEST_MU_FACTOR: f32 = 7.99;
+const LARGEST_MU_FACTOR: f32 = 7.9999;
 
 fn check_config(config: &Config) -> Result<(), ConfigError> {
     let slowest_hz = SLOWEST_CUTOFF * config.servo_rate_hz;
@@ -165,21 +165,10 @@ fn check_asset(asset: &Asset<'_>) -> Result<(), LoadError> {
     let speeds = (SLOWEST_GRID_MM_S, FASTEST_GRID_MM_S);
     range("grid.max_speed_mm_s", speed, speeds.0, speeds.1)?;
     range("grid.max_force_n", force, WEAKEST_GRID_N, f32::MAX)?;
-    let law = asset.friction().law().into_iter();
-    let factors = law.flat_map(|law| law.points().map(LawPoint::factor));
-    let factor = factors.reduce(max).unwrap_or(1.0);
-    let (level, mu) = asset.direction().map_or((1.0, 1.0), |direction| {
-        let ratio = direction.power_ratio / (direction.speed_ratio * direction.speed_ratio);
-        // The largest factor of the level over all directions.
-        let level = sqrt(1.0 + ratio);
-        (level, max(direction.mu_forward, direction.mu_backward))
-    });
-    range(
-        "friction.law.factor · direction.mu",
-        factor * mu,
-        0.0,
-        LARGEST_MU_FACTOR,
-    )?;
+    let level = match asset.direction() {
+        Some(direction) => check_direction(asset, direction, range)?,
+        None => 1.0,
+    };
     grid.vertices().try_for_each(|vertex| {
         let gain = grid
             .model(usize::from(vertex.model))
@@ -191,4 +180,21 @@ fn check_asset(asset: &Asset<'_>) -> Result<(), LoadError> {
             LOUDEST_M_S2,
         )
     })
+}
+
+/// Checks that μ of a law and of a direction together lies in the range; returns the largest factor of the level in any
+/// direction.
+fn check_direction(
+    asset: &Asset<'_>,
+    direction: &Direction,
+    range: impl Fn(&'static str, f32, f32, f32) -> Result<(), LoadError>,
+) -> Result<f32, LoadError> {
+    let law = asset.friction().law().into_iter();
+    let factors = law.flat_map(|law| law.points().map(LawPoint::factor));
+    let factor = factors.reduce(max).unwrap_or(1.0);
+    let ratio = max(direction.mu_forward, direction.mu_backward);
+    let field = "friction.law.factor · direction.mu";
+    range(field, factor * max(ratio, 1.0), 0.0, LARGEST_MU_FACTOR)?;
+    let speed = direction.speed_ratio;
+    Ok(sqrt(1.0 + direction.power_ratio / (speed * speed)))
 }

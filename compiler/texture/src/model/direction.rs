@@ -101,7 +101,7 @@ impl Direction {
     }
 
     /// The direction of a mixture of textures, each with its weight and its direction, if it has one: the mean of the logarithms, so
-    /// that halfway between 1 and ¼ is ½. Weights add up to 1.
+    /// that halfway between 1 and ¼ is ½. What the weights lack of 1 has no direction.
     #[must_use]
     pub fn mixed<'a>(shares: impl Iterator<Item = (f64, &'a Self)>) -> Self {
         let mut logs = [0.0; 4];
@@ -179,22 +179,18 @@ impl TextureModel {
         let along = direction.at(1.0);
         let field = Field::new(&self.grid);
         let vertices = self.grid.vertices.iter().map(|vertex| {
-            let place = field.locate(along.speed * vertex.speed_mm_s, vertex.force_n);
-            place.map_or_else(
-                || vertex.clone(),
-                |place| {
-                    let mixture = field.mixture(&place);
-                    let angles = |cosines: Vec<f64>| cosines.into_iter().map(libm::acos).collect();
-                    let gain = vertex.gain.max(f64::MIN_POSITIVE);
-                    GridVertex {
-                        sigma_m_s2: along.level * mixture.level_m_s2 / gain,
-                        lsf_rad: angles(mixture.ar_cosines),
-                        ma_lsf_rad: (vertex.ma_lsf_rad.is_some())
-                            .then(|| angles(mixture.ma_cosines)),
-                        ..*vertex
-                    }
-                },
-            )
+            let Some(place) = field.locate(along.speed * vertex.speed_mm_s, vertex.force_n) else {
+                return vertex.clone();
+            };
+            let mixture = field.mixture(&place);
+            let angles = |cosines: Vec<f64>| cosines.into_iter().map(libm::acos).collect();
+            GridVertex {
+                gain: 1.0,
+                sigma_m_s2: along.level * mixture.level_m_s2,
+                lsf_rad: angles(mixture.ar_cosines),
+                ma_lsf_rad: (vertex.ma_lsf_rad.is_some()).then(|| angles(mixture.ma_cosines)),
+                ..*vertex
+            }
         });
         self.grid.vertices = vertices.collect();
         self.friction.mu *= mu;
