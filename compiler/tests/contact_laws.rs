@@ -2,7 +2,7 @@
 
 mod hand;
 
-use crate::prompts::PROMPTS;
+use crate::prompts::{PROMPTS, compiled};
 use asperity::{
     driver,
     edit_memory::{Latents, Sliders},
@@ -306,10 +306,6 @@ fn words_move_a_law() {
 /// Claim: words of an edit move a law, an edit taken back brings it back, and a comparison says so.
 #[test]
 fn words_of_an_edit_move_a_law() {
-    let compiled = |prompt: &str| {
-        let options = Options::default().without_preview();
-        PROMPTS.compile(prompt, &options).unwrap().lowered.bytes
-    };
     let editor = LatentEditor::new(&PROMPTS);
     let options = MixOptions {
         preview: MixPreview::None,
@@ -359,10 +355,6 @@ fn words_of_an_edit_move_a_law() {
 /// Claim: a law stays with the taps and the wall that it belongs to, through rates, edits, blends and compositions.
 #[test]
 fn mixtures_and_edits_keep_the_law() {
-    let compiled = |prompt: &str| {
-        let options = Options::default().without_preview();
-        PROMPTS.compile(prompt, &options).unwrap().lowered.bytes
-    };
     let (honey, oak) = (compiled("sticky honey"), compiled("oak"));
     let (honey, oak) = (Asset::parse(&honey).unwrap(), Asset::parse(&oak).unwrap());
     let own = raise(&honey).contact.unwrap();

@@ -1,6 +1,6 @@
 //! Directions of prompts: which materials have one, and how strokes along and across them feel as the runtime renders them.
 
-use crate::prompts::PROMPTS;
+use crate::prompts::{PROMPTS, compiled};
 use asperity::{
     driver,
     edit_memory::Sliders,
@@ -11,14 +11,13 @@ use asperity::{
         Tools,
         latents::{Edit, LatentEditor, Mix, MixOptions, MixPreview},
         model_file,
-        prompt::Options,
     },
     views::inspect::Document,
 };
 use asperity_formats::Asset;
 use asperity_runtime::{Config, HostTexture, Renderer, Sample, State};
 use rayon::prelude::*;
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 fn texture(prompt: &str) -> TextureModel {
     TextureModel {
@@ -60,12 +59,12 @@ fn stroked(texture: &TextureModel, [x, y]: [f64; 2]) -> (f64, f64) {
 #[test]
 fn a_material_by_its_own_name_has_its_own_direction() {
     let description = PROMPTS.model().description();
-    let table: BTreeMap<&str, &str> = direction::materials().collect();
+    let table: BTreeSet<&str> = direction::materials().collect();
     assert_eq!(table.len(), 83);
     let anchors = description.anchors.par_iter();
     let found = anchors.filter(|anchor| {
         let at = direction::at(&anchor.z, description);
-        let own = table.contains_key(anchor.name.as_str());
+        let own = table.contains(anchor.name.as_str());
         assert_eq!(at.is_some(), own, "{}", anchor.name);
         own
     });
@@ -192,10 +191,6 @@ fn a_direction_reads_back_from_bytes_and_from_a_file() {
 /// Claim: an edit keeps the direction, a blend has one between, and what was compiled along the ribs stays so.
 #[test]
 fn edits_and_blends_keep_the_direction() {
-    let compiled = |prompt: &str| {
-        let options = Options::default().without_preview();
-        PROMPTS.compile(prompt, &options).unwrap().lowered.bytes
-    };
     let editor = LatentEditor::new(&PROMPTS);
     let options = MixOptions {
         preview: MixPreview::None,

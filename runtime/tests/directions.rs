@@ -88,17 +88,25 @@ fn white(direction: Direction) -> Texture {
     })
 }
 
+/// A renderer, and a slot that holds a texture.
+fn loaded<A: RenderArithmetic>(
+    texture: &Texture,
+    config: &Config,
+) -> (Renderer<A>, Box<HostSlot<A>>) {
+    let bytes = texture.encode();
+    let mut slot = Box::new(HostSlot::new());
+    let asset = Asset::parse(&bytes).unwrap();
+    slot.load(&asset, config.servo_rate_hz).unwrap();
+    (Renderer::prepare(config).unwrap(), slot)
+}
+
 /// Renders a path in the plane z = 0, in contact, and gives vibration and friction of each tick.
 fn render<A: RenderArithmetic>(
     texture: &Texture,
     config: &Config,
     path: impl Iterator<Item = [f64; 2]>,
 ) -> Vec<(f64, f64)> {
-    let bytes = texture.encode();
-    let asset = Asset::parse(&bytes).unwrap();
-    let renderer = Renderer::<A>::prepare(config).unwrap();
-    let mut slot = Box::new(HostSlot::<A>::new());
-    slot.load(&asset, config.servo_rate_hz).unwrap();
+    let (renderer, slot) = loaded::<A>(texture, config);
     let mut state = State::new(1);
     path.map(|[x, y]| {
         let sample = Sample::at([x, y, -DEPTH_M].map(|part| part as f32));
@@ -315,10 +323,7 @@ fn the_axis_is_projected_on_every_solid() {
                 solid,
                 ..Config::default()
             };
-            let renderer = Renderer::<A>::prepare(&config).unwrap();
-            let bytes = texture.encode();
-            let mut slot = Box::new(HostSlot::<A>::new());
-            slot.load(&Asset::parse(&bytes).unwrap(), 1000.0).unwrap();
+            let (renderer, slot) = loaded::<A>(&texture, &config);
             let mut state = State::new(1);
             let mut last = [0.0; 2];
             for tick in 0..300 {
@@ -368,10 +373,7 @@ fn nothing_jumps_at_the_pole_of_a_sphere() {
         },
         ..Config::default()
     };
-    let renderer = Renderer::new(&config).unwrap();
-    let bytes = texture.encode();
-    let mut slot = Box::new(HostSlot::<Float>::new());
-    slot.load(&Asset::parse(&bytes).unwrap(), 1000.0).unwrap();
+    let (renderer, slot) = loaded::<Float>(&texture, &config);
     // Over the pole, and past it by half a millimetre.
     for miss in [0.0, 0.0005, 0.003] {
         let mut state = State::new(1);
@@ -457,11 +459,7 @@ fn no_closed_path_over_a_nap_gains_energy() {
         for vertex in &mut texture.vertices {
             vertex.sigma_m_s2 = 0.0;
         }
-        let bytes = texture.encode();
-        let config = Config::default();
-        let renderer = Renderer::new(&config).unwrap();
-        let mut slot = Box::new(HostSlot::<Float>::new());
-        slot.load(&Asset::parse(&bytes).unwrap(), 1000.0).unwrap();
+        let (renderer, slot) = loaded::<Float>(&texture, &Config::default());
         let mut state = State::new(1);
         let (a, b) = (draw.range(1e-4, 0.01), draw.range(1e-4, 0.01));
         let (rate, phase) = (draw.range(2.0, 30.0), draw.range(0.0, TAU));

@@ -32,12 +32,7 @@ pub static TABLE: &str = DIRECTIONS;
 #[serde(deny_unknown_fields)]
 struct Material {
     name: String,
-    /// What lies along the axis.
-    axis: String,
-    power_ratio: f64,
-    speed_ratio: f64,
-    mu_forward: f64,
-    mu_backward: f64,
+    direction: Direction,
 }
 
 #[derive(Deserialize)]
@@ -46,26 +41,17 @@ struct Table {
     material: Vec<Material>,
 }
 
-/// Directions by the names of materials, and what lies along their axes; a test reads them all.
-static MATERIALS: LazyLock<BTreeMap<String, (Direction, String)>> = LazyLock::new(|| {
+/// Directions by the names of materials; a test reads them all.
+static MATERIALS: LazyLock<BTreeMap<String, Direction>> = LazyLock::new(|| {
     let table: Option<Table> = toml::from_str(DIRECTIONS).ok();
     let materials = table.into_iter().flat_map(|table| table.material);
-    let entry = |material: Material| {
-        let direction = Direction {
-            power_ratio: material.power_ratio,
-            speed_ratio: material.speed_ratio,
-            mu_forward: material.mu_forward,
-            mu_backward: material.mu_backward,
-            ..Direction::NONE
-        };
-        (material.name, (direction, material.axis))
-    };
+    let entry = |material: Material| (material.name, material.direction);
     materials.map(entry).collect()
 });
 
-/// Names of the materials that have a direction, and what lies along their axes.
-pub fn materials() -> impl Iterator<Item = (&'static str, &'static str)> {
-    MATERIALS.iter().map(|(name, (_, axis))| (&**name, &**axis))
+/// Names of the materials that have a direction.
+pub fn materials() -> impl Iterator<Item = &'static str> {
+    MATERIALS.keys().map(String::as_str)
 }
 
 /// The direction at a latent; `None` where its close neighbours that have one are not most of all by weight, and where nobody
@@ -90,7 +76,7 @@ pub fn said(z: &[f32], description: &ModelDescription, stroke: &Stroke) -> Optio
         let asked = matches!(stroke.bearing, Bearing::With | Bearing::Against);
         weight > LEAST && is_felt(direction) && (leans || !asked)
     });
-    found.or_else(|| Some(MATERIALS.get(stroke.like?)?.0))
+    found.or_else(|| MATERIALS.get(stroke.like?).copied())
 }
 
 /// The neighbours from a cosine on that have a direction, and their weights among all.
@@ -101,10 +87,8 @@ fn shares(
 ) -> Vec<(f64, &'static Direction)> {
     let shares = contact::shares(z, description);
     let close = (shares.iter()).filter(|(_, anchor)| friction::cosine(z, &anchor.z) >= cosine);
-    let directed = close.filter_map(|(weight, anchor)| {
-        let (direction, _) = MATERIALS.get(&anchor.name)?;
-        Some((*weight, direction))
-    });
+    let directed =
+        close.filter_map(|(weight, anchor)| Some((*weight, MATERIALS.get(&anchor.name)?)));
     directed.collect()
 }
 

@@ -26,7 +26,6 @@
 //! # Ok::<(), asperity::driver::Failure>(())
 //! ```
 
-mod bearing;
 mod certainty;
 mod changed;
 mod compiled_prompt;
@@ -39,12 +38,12 @@ mod prompt_compiler;
 mod readable;
 mod report;
 mod source;
+mod stroke;
 mod suggestions;
 
 pub use asperity_language::reading::Interpretation;
 pub use asperity_language::{phrase, reading, words::grade::woods};
 pub use asperity_texture::model::shift::Shift;
-pub(crate) use bearing::split as split_stroke;
 pub use changed::{STEP, changed, from_base};
 pub use compiled_prompt::{CompiledPrompt, Nearest, Options};
 pub use error::PromptError;
@@ -54,4 +53,5 @@ pub(crate) use prompt_compiler::title;
 pub use prompt_compiler::{Projection, PromptCompiler};
 pub use readable::{Understood, check};
 pub use source::{KIND, Picture, Prompt};
+pub(crate) use stroke::split_stroke;
 pub use suggestions::suggestions;

@@ -1,12 +1,13 @@
 //! From a prompt to a verified texture.
 
 use super::{
-    CompiledPrompt, Nearest, PromptError, bearing,
+    CompiledPrompt, Nearest, PromptError,
     encoding_cache::{EncodingCache, Read},
     error::unread,
     named_things::Things,
     readable::{Understood, check, understood},
     reading::{Reader, Reading, shown},
+    stroke::split_stroke,
 };
 use crate::{
     edit_memory::{History, Latents, Memory},
@@ -94,7 +95,7 @@ impl PromptCompiler {
     #[must_use]
     pub fn read(&self, prompt: &str) -> Reading {
         let cached = self.cache.reading(prompt);
-        cached.unwrap_or_else(|| self.reader.read(&bearing::split(prompt).0))
+        cached.unwrap_or_else(|| self.reader.read(&split_stroke(prompt).0))
     }
 
     /// The same of a text that names a surface, and nothing else.
@@ -136,7 +137,7 @@ impl PromptCompiler {
             certainty: self.certainty(&reading, unfamiliar),
             tokens: (encoded.tokens, encoded.cut),
             reading,
-            stroke: bearing::split(prompt).1,
+            stroke: split_stroke(prompt).1,
             understood: understood(shown(prompt).trim(), |word| self.text.reads(word)),
         })
     }

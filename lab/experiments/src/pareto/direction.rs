@@ -343,47 +343,6 @@ pub fn measure() -> Result<Vec<DirectionSummary>, CorpusError> {
         .collect())
 }
 
-/// Factors of a material as the compiler's table has them.
-#[derive(Debug, Clone, PartialEq)]
-pub struct MaterialFactors {
-    /// The material, as the corpus has it.
-    pub name: String,
-    /// What the axis is.
-    pub axis: String,
-    /// Power along the axis over that across it at the same speed.
-    pub power_ratio: f64,
-    /// Speed across the axis that is heard along it.
-    pub speed_ratio: f64,
-    /// μ with the nap and against it, over that across.
-    pub mu: [f64; 2],
-}
-
-/// The factors of every material of the corpus that has a direction, in the order of their names.
-///
-/// # Errors
-/// [`CorpusError`] of the committed corpus.
-pub fn factors() -> Result<Vec<MaterialFactors>, CorpusError> {
-    let constants = Constants::embedded(ConstantSet::Calibrated)?;
-    let physical = reference::physical()?;
-    let directions = reference::directions()?;
-    let mut factors: Vec<MaterialFactors> = (directions.iter())
-        .filter_map(|direction| {
-            let across = *physical.get(&direction.name)?;
-            let relief = Relief::new(&constants, across, direction.along(&across));
-            let with = 2.0 * direction.mu_ratio / (1.0 + direction.nap);
-            Some(MaterialFactors {
-                name: direction.name.clone(),
-                axis: direction.axis.clone(),
-                power_ratio: relief.power,
-                speed_ratio: relief.speed,
-                mu: [with, with * direction.nap],
-            })
-        })
-        .collect();
-    factors.sort_by(|a, b| a.name.cmp(&b.name));
-    Ok(factors)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -393,19 +352,24 @@ mod tests {
     /// `ASPERITY_BLESS=1 cargo test -p asperity-experiments --lib the_table_of_directions`.
     #[test]
     fn the_table_of_directions_is_that_of_the_corpus() {
+        let constants = Constants::embedded(ConstantSet::Calibrated).unwrap();
+        let physical = reference::physical().unwrap();
+        let mut directions = reference::directions().unwrap();
+        directions.sort_by(|a, b| a.name.cmp(&b.name));
         let mut text = String::from(HEAD);
-        for found in factors().unwrap() {
-            let MaterialFactors {
-                name,
-                axis,
-                power_ratio,
-                speed_ratio,
-                mu: [with, against],
-            } = found;
+        for direction in directions {
+            let across = physical[&direction.name];
+            let relief = Relief::new(&constants, across, direction.along(&across));
+            let with = 2.0 * direction.mu_ratio / (1.0 + direction.nap);
             writeln!(
                 text,
-                "\n[[material]]\nname = {name:?}\naxis = {axis:?}\npower_ratio = {power_ratio:.3}\n\
-                 speed_ratio = {speed_ratio:.3}\nmu_forward = {with:.3}\nmu_backward = {against:.3}"
+                "\n[[material]]\nname = {:?} # {}\n[material.direction]\npower_ratio = {:.3}\n\
+                 speed_ratio = {:.3}\nmu_forward = {with:.3}\nmu_backward = {:.3}",
+                direction.name,
+                direction.axis,
+                relief.power,
+                relief.speed,
+                with * direction.nap
             )
             .unwrap();
         }
@@ -424,9 +388,9 @@ mod tests {
     }
 
     const HEAD: &str = "\
-# How strokes along the ribs, the grain or the nap of a material differ from those across, in the names of `Direction`:
-# fitted to the corpus's generator with the relief that `training/corpora/directions.toml` states along the axis; all
-# heights along are estimates. Written by `the_table_of_directions_is_that_of_the_corpus`.
+# How strokes along an axis of a material differ from those across, in the names of `Direction`; what lies along the axis
+# stands behind the name. Fitted to the corpus's generator with the relief that `training/corpora/directions.toml` states
+# along the axis; all heights along are estimates. Written by `the_table_of_directions_is_that_of_the_corpus`.
 ";
 
     fn relief(constants: &Constants, along: Physical) -> Relief<'_> {

@@ -5,150 +5,34 @@
 
 use crate::learned::direction::Stroke;
 use asperity_texture::model::Bearing;
-use std::{borrow::Cow, ops::Range};
+use std::{borrow::Cow, ops::Range, sync::LazyLock};
 
-/// What lies along an axis, by the material that has it: the direction of what says that it has such, and of which the model
-/// knows none.
-const LINES: [(&str, &[&str]); 12] = [
-    (
-        "corduroy",
-        &[
-            "rib",
-            "ribs",
-            "ribbing",
-            "wale",
-            "wales",
-            "cord",
-            "cords",
-            "ridge",
-            "ridges",
-            "stripe",
-            "stripes",
-            "pleats",
-            "folds",
-            "crinkles",
-            "wrinkles",
-            "rows",
-            "rake marks",
-            "fissures",
-            "cracks",
-        ],
-    ),
-    (
-        "corrugated cardboard",
-        &[
-            "flute",
-            "flutes",
-            "corrugation",
-            "corrugations",
-            "fins",
-            "waves",
-            "rings",
-            "ring",
-            "windings",
-            "coils",
-            "turns",
-            "beads",
-        ],
-    ),
-    (
-        "vinyl record",
-        &[
-            "groove", "grooves", "furrow", "furrows", "thread", "threads", "seam",
-        ],
-    ),
-    (
-        "planed pine",
-        &[
-            "grain",
-            "figure",
-            "growth rings",
-            "veins",
-            "board",
-            "boards",
-            "plank",
-            "planks",
-            "saw marks",
-        ],
-    ),
-    (
-        "brushed stainless steel",
-        &[
-            "brush marks",
-            "brush strokes",
-            "brushstrokes",
-            "brushing",
-            "scratches",
-            "sanding marks",
-            "tool marks",
-            "machining marks",
-            "polish lines",
-            "lay",
-            "line",
-            "lines",
-        ],
-    ),
-    ("3D-printed layers", &["layers", "layer lines"]),
-    ("denim", &["weave", "twill", "warp", "weft"]),
-    (
-        "hemp rope",
-        &[
-            "strand",
-            "strands",
-            "string",
-            "strings",
-            "wires",
-            "wire",
-            "cables",
-            "lay of the rope",
-        ],
-    ),
-    (
-        "straw hat",
-        &[
-            "fibre", "fibres", "fiber", "fibers", "stalks", "stalk", "straws", "reed", "reeds",
-            "canes", "stems",
-        ],
-    ),
-    (
-        "bamboo",
-        &[
-            "sticks", "slats", "rods", "poles", "pencils", "tubes", "bars",
-        ],
-    ),
-    ("feather", &["barb", "vane", "vanes"]),
-    ("paintbrush", &["filaments", "spines"]),
-];
-/// The same of what leans one way, so that strokes along it have two senses.
-const NAPS: [(&str, &[&str]); 8] = [
-    ("velvet", &["nap", "fuzz", "lie", "lean"]),
-    ("cut-pile carpet", &["pile", "tufts"]),
-    (
-        "rabbit fur",
-        &["fur", "hair", "hairs", "coat", "wool", "growth"],
-    ),
-    (
-        "shark skin",
-        &[
-            "scale",
-            "scales",
-            "denticles",
-            "overlap",
-            "overlaps",
-            "laps",
-        ],
-    ),
-    ("wood rasp", &["teeth", "tooth", "hooks"]),
-    (
-        "unshaven chin",
-        &["whiskers", "stubble", "bristles", "awns"],
-    ),
-    ("cat's tongue", &["papillae", "thorns", "spikes"]),
-    (
-        "artificial grass",
-        &["blades", "feathers", "needles", "barbs"],
-    ),
-];
+/// Names of what lies along an axis.
+static NOUNS: LazyLock<Vec<Noun>> = LazyLock::new(|| {
+    let rows = include_str!("axis_nouns.tsv").lines();
+    let row = |line: &'static str| {
+        let mut fields = line.split('\t');
+        let (like, kind) = (fields.next()?, fields.next()?);
+        let names = fields.next()?.split(", ");
+        Some(names.map(move |name| Noun {
+            name,
+            like,
+            leans: kind == "nap",
+        }))
+    };
+    rows.filter_map(row).flatten().collect()
+});
+
+/// A name of what lies along an axis.
+#[derive(Debug)]
+struct Noun {
+    name: &'static str,
+    /// A material that has it: its direction is that of what says that it has such, where the model knows none.
+    like: &'static str,
+    /// True if it leans one way, so that strokes along it have two senses.
+    leans: bool,
+}
+
 /// Words that say a direction by themselves.
 const ALONE: [(&str, Bearing); 12] = [
     ("lengthwise", Bearing::Along),
@@ -206,7 +90,7 @@ const LONGEST: usize = 8;
 
 /// The prompt without its words of direction, and the stroke that they say. A prompt that says two, that denies one or that
 /// says nothing else stays as it is.
-pub(crate) fn split(prompt: &str) -> (Cow<'_, str>, Option<Stroke>) {
+pub(crate) fn split_stroke(prompt: &str) -> (Cow<'_, str>, Option<Stroke>) {
     let words = words(prompt);
     if words.len() > MOST_WORDS || words.iter().any(|word| is_of_clause(&lower(prompt, word))) {
         return (prompt.into(), None);
@@ -262,7 +146,7 @@ pub(crate) fn split(prompt: &str) -> (Cow<'_, str>, Option<Stroke>) {
         .iter()
         .map(|word| lower(&rest, word))
         .collect();
-    let lying = || (0..said.len()).find_map(|at| Some(longest(&said[at..])?.1));
+    let lying = || (0..said.len()).find_map(|at| Some(longest(&said[at..])?.1.like));
     let like = stroke.like.or_else(lying);
     (rest.into(), Some(Stroke { like, ..stroke }))
 }
@@ -294,17 +178,11 @@ fn starts(said: &[String], phrase: &str) -> Option<usize> {
     (said.get(..parts.len())? == parts.as_slice()).then_some(parts.len())
 }
 
-/// What lies along an axis at the beginning of these words: how many it takes, a material that has it, and whether it leans
-/// one way. "Growth rings" comes before "growth".
-fn longest(said: &[String]) -> Option<(usize, &'static str, bool)> {
-    let of = |names: &'static [(&str, &[&str])], leans: bool| {
-        let names =
-            (names.iter()).flat_map(|(like, names)| names.iter().map(move |name| (*like, name)));
-        names.filter_map(move |(like, name)| Some((starts(said, name)?, like, leans)))
-    };
-    of(&NAPS, true)
-        .chain(of(&LINES, false))
-        .max_by_key(|(count, ..)| *count)
+/// What lies along an axis at the beginning of these words, and how many of them it takes. "Growth rings" comes before
+/// "growth".
+fn longest(said: &[String]) -> Option<(usize, &'static Noun)> {
+    let found = (NOUNS.iter()).filter_map(|noun| Some((starts(said, noun.name)?, noun)));
+    found.max_by_key(|(count, _)| *count)
 }
 
 /// The stroke of a preposition and what lies along the axis.
@@ -323,9 +201,9 @@ fn named(said: &[String]) -> Option<(usize, Stroke)> {
         Way::With => usize::from(said.get(from - 1).is_some_and(|word| word == "the")),
         _ => ADJECTIVES,
     };
-    let (at, (count, like, leans)) =
+    let (at, (count, noun)) =
         (from..=from + skipped).find_map(|at| Some((at, longest(said.get(at..)?)?)))?;
-    let bearing = match (way, leans) {
+    let bearing = match (way, noun.leans) {
         (Way::Along, _) => Bearing::Along,
         (Way::Across, _) => Bearing::Across,
         // "corduroy with ribs" has them.
@@ -336,7 +214,7 @@ fn named(said: &[String]) -> Option<(usize, Stroke)> {
         // Of wood and cloth it is said of strokes that cross what lies along them.
         (Way::Against, false) => Bearing::Across,
     };
-    let like = Some(like);
+    let like = Some(noun.like);
     Some((at + count, Stroke { bearing, like }))
 }
 
@@ -423,12 +301,21 @@ mod tests {
                 Across,
             ),
         ] {
-            let (found, stroke) = split(prompt);
+            let (found, stroke) = split_stroke(prompt);
             assert_eq!(
                 (&*found, stroke.map(|stroke| stroke.bearing)),
                 (rest, Some(bearing)),
                 "{prompt}"
             );
+        }
+    }
+
+    #[test]
+    fn every_noun_has_a_material_with_a_direction() {
+        assert_eq!(include_str!("axis_nouns.tsv").lines().count(), 1 + 20);
+        for noun in NOUNS.iter() {
+            let found = crate::learned::direction::materials().any(|name| name == noun.like);
+            assert!(found, "{noun:?}");
         }
     }
 
@@ -449,7 +336,7 @@ mod tests {
             "hair along with feathers",
             "before you gut the bream, run a finger against the scales",
         ] {
-            assert_eq!(split(prompt), (prompt.into(), None), "{prompt}");
+            assert_eq!(split_stroke(prompt), (prompt.into(), None), "{prompt}");
         }
     }
 }
