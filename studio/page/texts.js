@@ -88,10 +88,10 @@ export const texts = {
       `Rerated from ${number(from_hz, 0)} to ${number(to_hz, 0)} Hz for this page; the file keeps ${number(from_hz, 0)} Hz`,
     // A right angle has two of these arrows, half of it one.
     axis: ([right, up]) => ["↔", "⤢", "↕", "⤡"][(Math.round((4 * Math.atan2(up, right)) / Math.PI) + 4) % 4],
-    along: (level_db, speed_ratio, mu_ratios) =>
-      `along ${level_db < 0 ? "−" : "+"}${number(Math.abs(level_db), 1)} dB, as across at ${number(speed_ratio, 2)} of the speed, `
-      + `μ × ${mu_ratios.map((ratio) => number(ratio, 2)).join(" and ")}`,
-    silent_along: "nothing vibrates along it",
+    along: (level_db) => `along ${level_db < 0 ? "−" : "+"}${number(Math.abs(level_db), 1)} dB`,
+    silent_along: "silent along it",
+    along_title: (speed_ratio, mu_ratios) =>
+      `Along it as across at ${number(speed_ratio, 2)} of the speed; μ × ${mu_ratios.map((ratio) => number(ratio, 2)).join(" and ")}`,
     plain: "This browser has no WebGL 2: the picture is shown without its relief.",
     no_picture: "The picture could not be loaded; the texture itself is complete.",
   },

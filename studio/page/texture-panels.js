@@ -6,11 +6,12 @@ import { certaintyText, showNearest, showReading } from "./reading.js";
 import { texts } from "./texts.js";
 
 /** An arrow along the ribs, the grain or the nap, and what a stroke along it meets. */
-function axisText({ axis, power_ratio, speed_ratio, mu_forward, mu_backward }) {
+function axisBadge({ axis, power_ratio, speed_ratio, mu_forward, mu_backward }) {
   const level_db = 10 * Math.log10(power_ratio) - 20 * Math.log10(speed_ratio);
   const mu = mu_forward.toFixed(2) === mu_backward.toFixed(2) ? [mu_forward] : [mu_forward, mu_backward];
-  const along = power_ratio > 0 ? texts.surface.along(level_db, speed_ratio, mu) : texts.surface.silent_along;
-  return `${texts.surface.axis(axis)} ${along}`;
+  const along = power_ratio > 0 ? texts.surface.along(level_db) : texts.surface.silent_along;
+  const title = texts.surface.along_title(speed_ratio, mu);
+  return element("span", { class: "badge", id: "axis", title }, `${texts.surface.axis(axis)} ${along}`);
 }
 
 function showFacts(texture) {
@@ -22,7 +23,7 @@ function showFacts(texture) {
   const rerated = worklet_rate_hz !== model_rate_hz;
   find("facts").replaceChildren(
     element("span", {}, `${texts.surface.kilobytes(asset_bytes)} · ${texts.surface.rate(model_rate_hz)}`),
-    ...(direction ? [" ", element("span", { class: "badge", id: "axis" }, axisText(direction))] : []),
+    ...(direction ? [" ", axisBadge(direction)] : []),
     ...(rerated ? [" ", element("span", { class: "badge" }, texts.surface.rerated(model_rate_hz, worklet_rate_hz))] : []));
 }
 
