@@ -18,6 +18,7 @@ use asperity_corpus::{
         friction, level, surface, transfer,
     },
 };
+use asperity_surface::vibration::with_floor;
 use rayon::prelude::*;
 use std::array;
 
@@ -189,7 +190,7 @@ fn bands_db(constants: &Constants, physical: &Physical, stroke: Bin) -> [f64; BA
     let mut bands = [0.0; BANDS];
     let mut total = 0.0;
     for (n, (power, width)) in powers.into_iter().enumerate() {
-        let power = transfer::with_floor(constants, power / mean) * width;
+        let power = with_floor(power / mean, constants.floor) * width;
         total += power;
         if let Some(band) = (n / PER_OCTAVE).checked_sub(FIRST_BAND) {
             bands[band] += power;

@@ -9,37 +9,28 @@ use super::statistics::Spread;
 use crate::signal::rms;
 use asperity::signal::lsf::to_polynomial;
 use asperity_corpus::{
-    Bin, CorpusError, SAMPLE_RATE_HZ,
+    Bin, CorpusError,
     generator::{
-        Physical, ar,
+        Physical,
         constants::{ConstantSet, Constants},
-        level,
-        transfer::{self, POINTS},
+        level, transfer,
     },
     reference,
+};
+use asperity_surface::{
+    direction::{self, SILENT_DB, SPEEDS_MM_S},
+    vibration::{POINTS, Spectrum, bands_db, lsf},
 };
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
-/// Speeds of the strokes, mm/s, their force, N, and the angles from across the axis, degrees.
-const SPEEDS_MM_S: [f64; 3] = [60.0, 120.0, 200.0];
+/// Force of the strokes, N, and their angles from across the axis, degrees.
 const FORCE_N: f64 = 1.0;
 const ANGLES_DEG: [f64; 7] = [0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0];
-/// Centres of third octaves, as decades of a hertz in tenths: 40 to 400 Hz.
-const BANDS: std::ops::RangeInclusive<i32> = 16..=26;
-/// Levels so far below the loudest third octave across the axis count as silent, dB.
-const SILENT_DB: f64 = 30.0;
 /// An error that is larger than a second grid's by this is a loss, dB.
 const LOST_DB: f64 = 2.0;
 /// Slowest speed at which a relief is stroked, mm/s: below it, it is silent.
 const SLOWEST_MM_S: f64 = 1.0;
-
-/// Speeds that are tried along the axis, as steps of so many octaves: a third to twice that of the stroke, so that
-/// the slowest stays among those that a model has.
-const SPEED_STEPS: std::ops::RangeInclusive<i32> = -6..=4;
-const SPEED_OCTAVES: f64 = 0.25;
-
-type Power = [f64; POINTS];
 
 /// A way to follow the direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -101,7 +92,7 @@ struct Relief<'a> {
     constants: &'a Constants,
     across: Physical,
     along: Physical,
-    /// Power along over that across at the same speed, and the speed across that is heard along.
+    /// Spectrum along over that across at the same speed, and the speed across that is heard along.
     power: f64,
     speed: f64,
 }
@@ -116,30 +107,11 @@ impl<'a> Relief<'a> {
             power: 1.0,
             speed: 1.0,
         };
-        let truth: Vec<(f64, Vec<f64>)> = SPEEDS_MM_S
-            .map(|v| {
-                let least = loudest_db(&relief.crossed(&across, v)) - SILENT_DB;
-                (least, bands_db(&relief.crossed(&along, v)))
-            })
-            .into();
-        let fitted = |octaves: f64| {
-            let speed = libm::exp2(octaves);
-            let apart: Vec<f64> = (SPEEDS_MM_S.iter().zip(&truth))
-                .flat_map(|(v, (least, truth))| {
-                    let found = bands_db(&relief.crossed(&across, v * speed));
-                    let pairs = truth.iter().zip(found);
-                    pairs.map(|(truth, found)| truth.max(*least) - found.max(*least))
-                })
-                .collect();
-            let mean = apart.iter().sum::<f64>() / apart.len() as f64;
-            let rest: Vec<f64> = apart.iter().map(|db| db - mean).collect();
-            let power = speed * speed * libm::exp10(mean / 10.0);
-            (rms(&rest), speed, power)
-        };
-        let tried = SPEED_STEPS.map(|step| fitted(f64::from(step) * SPEED_OCTAVES));
-        if let Some((_, speed, power)) = tried.min_by(|a, b| a.0.total_cmp(&b.0)) {
-            (relief.speed, relief.power) = (speed, power);
-        }
+        let ratios = direction::fit(
+            |v| relief.crossed(&across, v),
+            |v| relief.crossed(&along, v),
+        );
+        (relief.speed, relief.power) = (ratios.speed, ratios.power);
         relief
     }
 
@@ -148,7 +120,7 @@ impl<'a> Relief<'a> {
     }
 
     /// The vibration of one of its reliefs that is crossed at a speed.
-    fn crossed(&self, physical: &Physical, speed_mm_s: f64) -> Power {
+    fn crossed(&self, physical: &Physical, speed_mm_s: f64) -> Spectrum {
         if speed_mm_s < SLOWEST_MM_S {
             return [0.0; POINTS];
         }
@@ -156,14 +128,14 @@ impl<'a> Relief<'a> {
         transfer::spectrum(self.constants, physical, stroke(speed_mm_s)).map(|power| level * power)
     }
 
-    fn ribs(&self, v: f64, (c2, s2): (f64, f64)) -> Power {
+    fn ribs(&self, v: f64, (c2, s2): (f64, f64)) -> Spectrum {
         sum(
             &self.crossed(&self.across, v * c2.sqrt()),
             &self.crossed(&self.along, v * s2.sqrt()),
         )
     }
 
-    fn grain(&self, v: f64, (c2, s2): (f64, f64)) -> Power {
+    fn grain(&self, v: f64, (c2, s2): (f64, f64)) -> Spectrum {
         let geometric =
             |across: f64, along: f64| libm::exp(c2 * libm::log(across) + s2 * libm::log(along));
         let (across, along) = (&self.across, &self.along);
@@ -177,7 +149,7 @@ impl<'a> Relief<'a> {
         self.crossed(&field, v)
     }
 
-    fn rendered(&self, design: Design, v: f64, (c2, s2): (f64, f64)) -> Power {
+    fn rendered(&self, design: Design, v: f64, (c2, s2): (f64, f64)) -> Spectrum {
         let at = |factor: f64, gain: f64| self.crossed(&self.across, v * factor).map(|p| gain * p);
         let (e, r2) = (self.power, self.speed * self.speed);
         match design {
@@ -203,11 +175,11 @@ impl<'a> Relief<'a> {
     }
 
     /// The LSFs of both reliefs, each crossed at a speed, mixed in cos ω by shares of their powers, and the sum of these.
-    fn mixed(&self, (across, along): (f64, f64), (c2, s2): (f64, f64)) -> Power {
+    fn mixed(&self, (across, along): (f64, f64), (c2, s2): (f64, f64)) -> Spectrum {
         let model = |physical: &Physical, speed_mm_s: f64| {
             let shape = transfer::spectrum(self.constants, physical, stroke(speed_mm_s));
             (
-                ar::lsf(&shape),
+                lsf(&shape),
                 libm::exp10(self.level_db(physical, speed_mm_s) / 10.0),
             )
         };
@@ -223,7 +195,7 @@ impl<'a> Relief<'a> {
             })
             .collect();
         let monic = to_polynomial(&mixed);
-        let shape: Power = std::array::from_fn(|point| {
+        let shape: Spectrum = std::array::from_fn(|point| {
             let w = (point as f64 + 0.5) * PI / POINTS as f64;
             let (mut re, mut im) = (0.0, 0.0);
             for (lag, a) in monic.iter().enumerate() {
@@ -244,31 +216,14 @@ fn stroke(speed_mm_s: f64) -> Bin {
     }
 }
 
-fn sum(a: &Power, b: &Power) -> Power {
+fn sum(a: &Spectrum, b: &Spectrum) -> Spectrum {
     std::array::from_fn(|n| a[n] + b[n])
-}
-
-/// Levels of third octaves, dB.
-fn bands_db(power: &Power) -> Vec<f64> {
-    let width_hz = 0.5 * SAMPLE_RATE_HZ / POINTS as f64;
-    let band = |tenths: i32| {
-        let edge = |by: f64| libm::exp10(f64::from(tenths) / 10.0 + by) / width_hz;
-        let (low, high) = (edge(-0.05), edge(0.05));
-        let inside = |n: &usize| (low..high).contains(&(*n as f64 + 0.5));
-        let sum: f64 = (0..POINTS).filter(inside).map(|n| power[n]).sum();
-        10.0 * libm::log10(sum.max(1e-30))
-    };
-    BANDS.map(band).collect()
-}
-
-fn loudest_db(power: &Power) -> f64 {
-    bands_db(power).into_iter().fold(f64::MIN, f64::max)
 }
 
 /// Third octaves at each angle and speed, dB: [angle][speed][band].
 type Bands = Vec<Vec<Vec<f64>>>;
 
-fn bands(power: impl Fn(f64, (f64, f64)) -> Power) -> Bands {
+fn bands(power: impl Fn(f64, (f64, f64)) -> Spectrum) -> Bands {
     let at = |degrees: f64| {
         let c = libm::cos(TAU * degrees / 360.0);
         let angle = (c * c, 1.0 - c * c);
@@ -425,7 +380,7 @@ mod tests {
                 relief.ribs(120.0, angle),
                 relief.rendered(Design::Powers, 120.0, angle),
             );
-            let peak = |power: &Power| {
+            let peak = |power: &Spectrum| {
                 (0..POINTS)
                     .max_by(|&a, &b| power[a].total_cmp(&power[b]))
                     .unwrap()

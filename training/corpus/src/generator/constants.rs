@@ -1,6 +1,7 @@
 //! The global constants of the generator, and the file that states them.
 
 use crate::CorpusError;
+use asperity_surface::stylus::Stylus;
 use serde::{Deserialize, Serialize};
 
 /// Name of the file in error messages.
@@ -250,6 +251,17 @@ impl ConstantsFile {
 }
 
 impl Constants {
+    /// Tool and hand.
+    #[must_use]
+    pub const fn stylus(&self) -> Stylus {
+        Stylus {
+            resonance_hz: self.resonance_hz,
+            modulus_exponent: self.resonance_modulus_exponent,
+            force_exponent: self.resonance_force_exponent,
+            hand_damping: self.hand_damping,
+        }
+    }
+
     /// A committed set.
     ///
     /// # Errors
@@ -275,6 +287,7 @@ mod tests {
         let values = file.values(ConstantSet::Calibrated);
         assert_eq!(Constants::from_array(values.to_array()), values);
         assert_ne!(values, file.values(ConstantSet::Open));
+        assert_eq!(values.stylus(), Stylus::CALIBRATED);
     }
 
     #[test]

@@ -1,18 +1,17 @@
 //! The generator: it makes a texture from six physical parameters.
 //!
-//! 1. [`surface`]: the spectrum of heights along the stroke, a line and a broad relief, averaged
-//!    over the contact.
-//! 2. [`transfer`]: heights at speed v become frequencies v·k; two derivatives make
-//!    them accelerations; the stylus on its contact is a damped resonator; a floor is below.
+//! 1. [`surface`]: the spectrum of heights along the stroke, a line and a broad relief.
+//! 2. [`transfer`]: the contact averages heights, which at speed v become frequencies v·k; two derivatives make
+//!    them accelerations; the stylus on its contact is a damped resonator; a floor is below. Contact and stylus are
+//!    those of [`asperity_surface`].
 //! 3. [`level`]: RMS acceleration from height and modulus, growing with speed and force.
-//! 4. [`ar`]: autocorrelation and Levinson's recursion to AR(21) under 1 + z⁻¹.
+//! 4. [`vibration`]: autocorrelation and Levinson's recursion to AR(21) under 1 + z⁻¹.
 //! 5. [`tap`]: the transients of impacts, by Hertz's contact and the modes of the surface.
 //! 6. [`friction`]: the coefficient of friction.
 //!
 //! Everything it makes is synthetic. Its global constants are in [`constants`]; `docs/corpus.md`
 //! says what they were calibrated on.
 
-pub mod ar;
 pub mod constants;
 pub mod friction;
 pub mod level;
@@ -21,6 +20,7 @@ pub mod tap;
 pub mod transfer;
 
 use crate::{BINS, Instance, ORDER, TAPS, UnifiedGrid};
+use asperity_surface::vibration;
 use constants::Constants;
 
 /// Physical parameters of a surface under a stylus.
@@ -65,7 +65,7 @@ pub fn instance(constants: &Constants, physical: &Physical, grid: &UnifiedGrid) 
     let mut level_db = [0.0; BINS];
     for (index, bin) in grid.bins.iter().enumerate() {
         let shape = transfer::spectrum(constants, physical, *bin);
-        lsf_rad[index] = ar::lsf(&shape);
+        lsf_rad[index] = vibration::lsf(&shape);
         level_db[index] = level::rms_db(constants, physical, *bin) as f32;
     }
     Instance {

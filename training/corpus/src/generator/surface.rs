@@ -1,4 +1,4 @@
-//! Heights of a surface along a stroke, as a contact averages them.
+//! Heights of a surface along a stroke.
 
 use super::{Physical, constants::Constants};
 
@@ -27,13 +27,4 @@ pub fn relief_power(constants: &Constants, physical: &Physical, k_per_mm: f64) -
     let broad = constants.background * libm::pow(spread, BACKGROUND_SPREAD_EXPONENT)
         / (power(physical.wavelength_mm / LONGEST_MM) + power(cycles));
     line(0.0) + regular * line(1.0) + broad
-}
-
-/// Returns the power transmission of an average over the contact, on heights: `(1 + (2πkw)²)^(−3/2)` with the contact's
-/// length w. The transform of Hertz's pressure, √(1 − x²), falls as k^(−3/2).
-#[must_use]
-pub fn contact_power(constants: &Constants, k_per_mm: f64) -> f64 {
-    let x = std::f64::consts::TAU * k_per_mm * constants.contact_mm;
-    let squared = 1.0 + x * x;
-    1.0 / (squared * squared.sqrt())
 }

@@ -1,13 +1,11 @@
 //! Conversion of HaTT's ARMA models to AR(21) under the fixed numerator 1 + z⁻¹.
 
-use crate::{
-    ORDER,
-    generator::{self, transfer::POINTS},
-};
+use crate::ORDER;
 use asperity::{
     signal::{lsf, spectrum::squared_magnitude},
     sources::hatt::SourceModel,
 };
+use asperity_surface::vibration::{self, POINTS, Spectrum};
 use std::f64::consts::PI;
 
 /// Lower bound of |1 + e^{−jω}|² when it is divided out; its peak is 4.
@@ -42,7 +40,7 @@ pub(super) fn sounds(model: &SourceModel) -> bool {
 /// LSFs.
 pub(super) fn convert(model: &SourceModel) -> Option<Sounding> {
     let mut mean = 0.0;
-    let mut shape: [f64; POINTS] = std::array::from_fn(|point| {
+    let mut shape: Spectrum = std::array::from_fn(|point| {
         let omega = (point as f64 + 0.5) * PI / POINTS as f64;
         let power =
             squared_magnitude(&model.ma.monic, omega) / squared_magnitude(&model.ar.monic, omega);
@@ -53,7 +51,7 @@ pub(super) fn convert(model: &SourceModel) -> Option<Sounding> {
     for power in &mut shape {
         *power /= mean;
     }
-    let lsf_rad = generator::ar::lsf(&shape).map(f64::from);
+    let lsf_rad = vibration::lsf(&shape).map(f64::from);
     let sigma = model.gain * model.variance.sqrt();
     let level_db = 20.0 * libm::log10(sigma) + 10.0 * libm::log10(mean);
     (lsf::is_ordered(&lsf_rad) && level_db.is_finite()).then_some(Sounding {

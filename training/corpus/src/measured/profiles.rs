@@ -5,13 +5,9 @@
 
 use crate::{
     Bin,
-    generator::{
-        Physical,
-        constants::Constants,
-        surface::relief_power,
-        transfer::{self, POINTS},
-    },
+    generator::{Physical, constants::Constants, surface::relief_power, transfer},
 };
+use asperity_surface::vibration::{POINTS, freq_hz};
 use std::collections::BTreeMap;
 
 const PROFILES_CSV: &str = include_str!("../../../corpora/measured/profiles.csv");
@@ -115,15 +111,12 @@ fn third_octaves_db(
     heights: impl Fn(f64) -> f64,
 ) -> Vec<f64> {
     let spectrum = transfer::spectrum_over(constants, physical, STROKE, heights);
-    let width_hz = 0.5 * crate::SAMPLE_RATE_HZ / POINTS as f64;
     BANDS
         .map(|band| {
             let centre_hz = libm::exp10(f64::from(band) / 10.0);
             let edge = libm::exp10(0.05);
-            let inside = |point: &usize| {
-                let freq_hz = (*point as f64 + 0.5) * width_hz;
-                (centre_hz / edge..centre_hz * edge).contains(&freq_hz)
-            };
+            let inside =
+                |point: &usize| (centre_hz / edge..centre_hz * edge).contains(&freq_hz(*point));
             let powers: Vec<f64> = (0..POINTS).filter(inside).map(|p| spectrum[p]).collect();
             decibels(powers.iter().sum::<f64>() / powers.len().max(1) as f64)
         })
