@@ -9,7 +9,9 @@ mod studio;
 mod views;
 
 pub(crate) use groups::{PreviewOptions, ReportOptions};
-pub(crate) use import::{Import, ImportHatt, ImportModel, ImportRecording, RecordCheck};
+pub(crate) use import::{
+    Import, ImportHatt, ImportModel, ImportRecording, ImportSurface, RecordCheck, TipChoice,
+};
 pub(crate) use interchange::{Export, ImportEffects};
 pub(crate) use library::{Build, Diff, Extract, List, Merge, Rename, Split};
 pub(crate) use mixing::{Blend, Compose, Edit, Encode, Mixed};

@@ -11,5 +11,6 @@ mod own_source;
 mod prompts;
 mod relative;
 mod scene;
+mod surfaces;
 mod texture_model;
 mod tokens;

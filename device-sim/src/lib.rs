@@ -48,6 +48,7 @@
 //! | [`host_device`] | the simulated device and hand behind the host's trait |
 //! | [`config`] | how TOML files are read and checked |
 //! | [`random`] | uniform numbers |
+//! | [`dragged_tip`] | apart from the loop: a ball dragged over a relief, against which the models of strokes are checked |
 //!
 //! The simulator deliberately leaves out the kinematics of the arm (its axes are independent and
 //! Cartesian), gravity (which counts as compensated), the stylus's orientation, motor heat (the
@@ -57,6 +58,7 @@
 pub mod axis;
 pub mod config;
 pub mod device;
+pub mod dragged_tip;
 pub mod fault;
 pub mod hand;
 pub mod host_device;

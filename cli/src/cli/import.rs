@@ -1,8 +1,8 @@
 //! Arguments of the commands that check and import what others measured or modelled.
 
-use super::{ImportEffects, PreviewOptions, ReportOptions};
+use super::{ImportEffects, Inference, PreviewOptions, ReportOptions};
 use asperity::passes::reduce::Fidelity;
-use clap::{Args, Subcommand};
+use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -36,6 +36,8 @@ pub(crate) enum Import {
     Model(ImportModel),
     /// Compile a recording of a tool on a surface: its acceleration, force and motion
     Recording(ImportRecording),
+    /// Compile a height map of a surface into a texture
+    Surface(ImportSurface),
     /// Compile a NiceVibrations `.haptic` file into a texture
     Haptic(ImportEffects),
     /// Compile an Apple Haptic and Audio Pattern into a texture
@@ -80,6 +82,72 @@ pub(crate) struct ImportRecording {
     #[arg(long, value_name = "FILE.png")]
     pub(crate) plot: Option<PathBuf>,
     /// Write the report of every step as JSON
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) report: Option<PathBuf>,
+    /// Also write the unreduced texture as JSON, which `asperity import model` reads
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) emit_model: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) reporting: ReportOptions,
+}
+
+/// The tip that strokes a surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum TipChoice {
+    /// A steel ball of 3.2 mm
+    Stylus,
+    /// A fingertip
+    Fingertip,
+    /// A steel needle of 0.2 mm
+    Needle,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "The tip rolls over the heights, and its contact averages them; what tool and hand \
+make of that at many speeds and forces becomes the texture, with the axis of ribs or a grain. \
+Heights are greyscale PNG or TIFF, white high; 16 bits keep fine relief. What a map cannot say, \
+hardness, taps and friction, comes from --like, or else from materials that vibrate alike. \
+docs/surfaces.md explains the method and its limits.
+
+Examples:
+  asperity import surface oak.png -o oak.asp --width-mm 100 --depth-mm 0.4 --like 'planed oak'
+  asperity import surface scan.tif -o scan.asp --width-mm 12.5 --depth-mm 0.08 --json
+  asperity import surface cracks.png -o cracks.asp --width-mm 50 --depth-mm -0.3"
+)]
+pub(crate) struct ImportSurface {
+    /// The height map (.png, .tif)
+    pub(crate) path: PathBuf,
+    /// The asset to write; `-` is standard output
+    #[arg(short, long)]
+    pub(crate) output: PathBuf,
+    /// Width of the surface that the map shows, mm
+    #[arg(long, value_name = "W")]
+    pub(crate) width_mm: f64,
+    /// Height of white above black, mm, or of the highest point above the lowest in floating point; negative where white
+    /// is low [default: as strong as --like]
+    #[arg(long, value_name = "D", allow_negative_numbers = true)]
+    pub(crate) depth_mm: Option<f64>,
+    /// Words for the material: its hardness, taps and friction
+    #[arg(long, value_name = "PROMPT")]
+    pub(crate) like: Option<String>,
+    /// The tip that strokes it
+    #[arg(long, value_enum, default_value_t = TipChoice::Stylus)]
+    pub(crate) tip: TipChoice,
+    /// Name of the texture [default: that of the file]
+    #[arg(long)]
+    pub(crate) name: Option<String>,
+    /// Model detail to keep: everything, as little as stays within 0.5 dB, or this AR order
+    #[arg(long, default_value = "auto", value_name = "full|auto|ORDER")]
+    pub(crate) fidelity: Fidelity,
+    /// Sample rate of the AR models, Hz; use the rate of your servo loop [default: 1000]
+    #[arg(long, value_name = "HZ")]
+    pub(crate) rate: Option<f64>,
+    #[command(flatten)]
+    pub(crate) inference: Inference,
+    #[command(flatten)]
+    pub(crate) preview: PreviewOptions,
+    /// Write the report as JSON
     #[arg(long, value_name = "FILE.json")]
     pub(crate) report: Option<PathBuf>,
     /// Also write the unreduced texture as JSON, which `asperity import model` reads

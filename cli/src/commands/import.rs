@@ -1,10 +1,10 @@
-//! `asperity import model`, `haptic`, `ahap`, `hjif` and `recording`.
+//! `asperity import model`, `haptic`, `ahap`, `hjif`, `recording` and `surface`.
 
 use super::{
     inference,
     one_texture::{Job, RequestedOutputs, request},
 };
-use crate::cli::{ImportEffects, ImportModel, ImportRecording};
+use crate::cli::{ImportEffects, ImportModel, ImportRecording, ImportSurface, TipChoice};
 use asperity::{
     library::model_files,
     pipeline::Request,
@@ -12,11 +12,13 @@ use asperity::{
         Source, Tools,
         effects::{Effects, EffectsKind, Options},
         model_file::ModelFile,
+        prompt,
         recording::RecordingFolder,
+        surface::{Options as SurfaceOptions, Size, Surface, Tip},
     },
 };
 use asperity_console::Console;
-use asperity_io::diagnostic::Failures;
+use asperity_io::diagnostic::{Failures, one};
 
 pub(crate) fn model(args: &ImportModel, console: Console) -> Result<(), Failures> {
     let source = ModelFile {
@@ -70,6 +72,50 @@ pub(crate) fn recording(args: &ImportRecording, console: Console) -> Result<(), 
     let request = request(args.fidelity, args.rate, &args.preview);
     let job = Job::open(requested, &inputs, console)?;
     let model = inference::completer(args.model.as_deref())?;
+    let tools = Tools {
+        model: Some(&model),
+        ..Tools::default()
+    };
+    job.run(&source, &request, &tools)
+}
+
+pub(crate) fn surface(args: &ImportSurface, console: Console) -> Result<(), Failures> {
+    if let Some(like) = &args.like {
+        prompt::check(like).map_err(one)?;
+    }
+    let source = Surface {
+        file: args.path.clone(),
+        options: SurfaceOptions {
+            size: Size {
+                width_mm: args.width_mm,
+                depth_mm: args.depth_mm,
+            },
+            like: args.like.clone(),
+            tip: match args.tip {
+                TipChoice::Stylus => Tip::STYLUS,
+                TipChoice::Fingertip => Tip::FINGERTIP,
+                TipChoice::Needle => Tip::NEEDLE,
+            },
+        },
+    };
+    let setup = args.inference.setup();
+    let mut inputs = source.inputs();
+    inputs.extend(setup.files());
+    let requested = RequestedOutputs {
+        emit_model: args.emit_model.as_deref(),
+        report: args.report.as_deref(),
+        ..RequestedOutputs::of(&args.output, args.reporting)
+    };
+    let request = Request {
+        name: args.name.clone(),
+        ..request(args.fidelity, args.rate, &args.preview)
+    };
+    let job = Job::open(requested, &inputs, console)?;
+    if args.like.is_some() {
+        let prompt_compiler = setup.prompt_compiler()?;
+        return job.run(&source, &request, &Tools::of(&prompt_compiler));
+    }
+    let model = inference::completer(args.inference.model.as_deref())?;
     let tools = Tools {
         model: Some(&model),
         ..Tools::default()

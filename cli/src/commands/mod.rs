@@ -41,6 +41,7 @@ pub(crate) fn run(cli: Cli) -> Result<(), Failures> {
     match cli.command {
         Command::Import(Import::Hatt(args)) => import_hatt::run(&args, console),
         Command::Import(Import::Model(args)) => import::model(&args, console),
+        Command::Import(Import::Surface(args)) => import::surface(&args, console),
         Command::Import(Import::Recording(args)) => import::recording(&args, console),
         Command::Import(Import::Haptic(args)) => {
             import::effects(&args, EffectsKind::Haptic, console)

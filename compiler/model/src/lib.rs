@@ -36,6 +36,10 @@ pub static CONTACT_LAWS: &str = include_str!("../contact_laws.toml");
 /// either.
 pub static DIRECTIONS: &str = include_str!("../directions.toml");
 
+/// Indentation moduli of materials, MPa, by the names of `model.json`: lines `name TAB modulus`; no part of [`folder`],
+/// either.
+pub static MODULI: &str = include_str!("../moduli.tsv");
+
 /// CRC-32 of the files of [`folder`], one after another. A test compares.
 pub const MODEL_CRC32: u32 = 0x7b36_8b4c;
 

@@ -15,6 +15,7 @@ pub(crate) mod files;
 pub mod friction;
 pub mod inference;
 mod model;
+pub mod modulus;
 mod network;
 pub mod text;
 pub mod texture;

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     edit_memory::AXES,
-    learned::{Certainty, contact, direction},
+    learned::{Certainty, contact, direction, modulus},
     pipeline::{Clock, Pass, Pipeline, Timings},
     sources::{
         Tools,
@@ -365,7 +365,7 @@ fn keys(
         };
         places[index] = Some(edited(parts, &entry.options).key());
     }
-    let tables = contact::TABLES.concat() + direction::TABLE;
+    let tables = contact::TABLES.concat() + direction::TABLE + modulus::TABLE;
     let laws = Key::of(tables.as_bytes());
     let all = entries.iter().zip(&places);
     Ok(all

@@ -28,6 +28,7 @@ pub mod model_file;
 pub mod prompt;
 pub mod recording;
 mod registry;
+pub mod surface;
 
 pub use crate::compiled::Findings;
 pub use kind::{Operand, SourceEntry, SourceKind};

@@ -2,7 +2,7 @@
 
 use crate::vibration::{Spectrum, bands_db};
 
-/// Speeds of the strokes, mm/s.
+/// Speeds of the strokes that materials are compared in, mm/s.
 pub const SPEEDS_MM_S: [f64; 3] = [60.0, 120.0, 200.0];
 /// Levels so far below the loudest third octave across the axis count as silent, dB.
 pub const SILENT_DB: f64 = 30.0;
@@ -12,7 +12,7 @@ pub const SILENT_DB: f64 = 30.0;
 const SPEED_STEPS: std::ops::RangeInclusive<i32> = -6..=4;
 const SPEED_OCTAVES: f64 = 0.25;
 
-/// What a stroke along the axis meets, by one across it.
+/// Ratios of a stroke along the axis to one across it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ratios {
     /// P, the power along over that across at the same speed.
@@ -21,16 +21,26 @@ pub struct Ratios {
     pub speed: f64,
 }
 
-/// The ratios that render strokes along the axis best, in third octaves, from spectra of acceleration by speed, mm/s.
+/// The ratios that render strokes along the axis best at some speeds, mm/s, in third octaves, from spectra of acceleration by
+/// speed.
 #[must_use]
-pub fn fit(across: impl Fn(f64) -> Spectrum, along: impl Fn(f64) -> Spectrum) -> Ratios {
-    let truth = SPEEDS_MM_S.map(|v| {
-        let least = loudest_db(&across(v)) - SILENT_DB;
-        (least, bands_db(&along(v)))
-    });
+pub fn fit(
+    speeds_mm_s: &[f64],
+    across: impl Fn(f64) -> Spectrum,
+    along: impl Fn(f64) -> Spectrum,
+) -> Ratios {
+    let bands = |v: &f64| (loudest_db(&across(*v)) - SILENT_DB, bands_db(&along(*v)));
+    let truth: Vec<(f64, Vec<f64>)> = speeds_mm_s.iter().map(bands).collect();
+    let is_silent = |(least, bands): &(f64, Vec<f64>)| bands.iter().all(|band| band <= least);
+    if truth.iter().all(is_silent) {
+        return Ratios {
+            power: 0.0,
+            speed: 1.0,
+        };
+    }
     let fitted = |octaves: f64| {
         let speed = libm::exp2(octaves);
-        let apart: Vec<f64> = (SPEEDS_MM_S.iter().zip(&truth))
+        let apart: Vec<f64> = (speeds_mm_s.iter().zip(&truth))
             .flat_map(|(v, (least, truth))| {
                 let found = bands_db(&across(v * speed));
                 let pairs = truth.iter().zip(found);

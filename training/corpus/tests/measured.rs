@@ -1,9 +1,10 @@
 //! The generator held against measured modes and height profiles.
 
 use asperity_corpus::{
+    Bin,
     generator::{
         constants::{ConstantSet, Constants},
-        surface, tap,
+        level, surface, tap, transfer,
     },
     measured::{
         banks::Bank,
@@ -12,6 +13,15 @@ use asperity_corpus::{
     },
     reference,
 };
+use asperity_surface::{
+    contact::{Contact, Tip},
+    heights::HeightField,
+    stroke::Strokes,
+    stylus::Support,
+    vibration::{self, POINTS, Spectrum, bands_db},
+    wave_spectrum::WaveSpectrum,
+};
+use std::f64::consts::{LN_2, PI, TAU};
 
 #[test]
 fn the_committed_modes_are_those_of_37_objects_of_14_materials() {
@@ -137,4 +147,96 @@ fn profiles_lie_within_seven_decibels_most_of_them_within_five_and_the_generator
         .rms_db
             < 1e-9
     );
+}
+
+/// Points along a side of the fields, their distance, mm, and the waves that they are sums of.
+const SIDE: usize = 384;
+const PITCH_MM: f64 = 0.06;
+const WAVES: u32 = 400;
+
+/// A field that is the same in all directions, with the density of a profile along each: heights in µm.
+fn isotropic(points: &[profiles::Point]) -> HeightField {
+    let slope = {
+        let (first, last) = (points[0], points[points.len() - 1]);
+        libm::log(first.density_um2_mm / last.density_um2_mm)
+            / libm::log(last.k_per_mm / first.k_per_mm)
+    };
+    // Of waves in all directions with a power of q^−b, a line meets so much of q^−b.
+    let met = libm::tgamma(0.5 * slope) / PI.sqrt() / libm::tgamma(0.5 * (slope + 1.0));
+    let mut heights = vec![0.0_f32; SIDE * SIDE];
+    let mut angle = 0.3;
+    for wave in 0..WAVES {
+        let octaves = 6.6 * (f64::from(wave) + 0.5) / f64::from(WAVES);
+        let q = 0.08 * libm::exp2(octaves);
+        let power = profiles::density_at(points, q) / met * q * LN_2 * 6.6 / f64::from(WAVES);
+        // The golden angle spreads directions and phases evenly.
+        angle += 2.399_963;
+        let step = |part: f64| TAU * (q * part * SIDE as f64 * PITCH_MM).round() / SIDE as f64;
+        let (x, y) = (step(libm::cos(angle)), step(libm::sin(angle)));
+        let height = (2.0 * power).sqrt() as f32;
+        for (n, slot) in heights.iter_mut().enumerate() {
+            let phase = x * (n % SIDE) as f64 + y * (n / SIDE) as f64 + 7.0 * angle;
+            *slot += height * (phase as f32).cos();
+        }
+    }
+    HeightField::new(SIDE, [PITCH_MM; 2], heights).unwrap()
+}
+
+/// Claim: through the contact of an imported surface, profiles vibrate in the median within 3 dB as strongly as calibrated
+/// strokes over materials of their names, and their third octaves from 40 to 400 Hz are less than 1 dB
+/// further from theirs than through the fitted contact.
+#[test]
+fn profiles_vibrate_as_calibrated_strokes_do() {
+    let materials = reference::physical().unwrap();
+    let constants = Constants::embedded(ConstantSet::Calibrated).unwrap();
+    let stroke = Bin {
+        speed_mm_s: 100.0,
+        force_n: 1.0,
+    };
+    let profiles = profiles::profiles();
+    // Heights of half a nanometre are in a unit that nobody states.
+    let pairs = profiles::PAIRS
+        .iter()
+        .filter(|(name, _)| *name != "sanded_acrylic");
+    let mut rows: Vec<[f64; 3]> = pairs
+        .map(|(name, ours)| {
+            let physical = materials[*ours];
+            let support = Support {
+                modulus_mpa: physical.modulus_mpa,
+                loss_factor: physical.loss_factor,
+                force_n: stroke.force_n,
+            };
+            let contact = Contact::with(&isotropic(&profiles[name]));
+            let waves = WaveSpectrum::of(&contact.followed(&Tip::STYLUS, &support));
+            let power = Strokes::over(&waves.along(0.0)).power(stroke.speed_mm_s, &support);
+            let square = power.iter().sum::<f64>() * 500.0 / POINTS as f64;
+            let level_db = 10.0 * square.log10() - level::rms_db(&constants, &physical, stroke);
+            let own = bands_db(&transfer::spectrum(&constants, &physical, stroke));
+            let shape_db = |power: &Spectrum| {
+                let bands = bands_db(power);
+                let apart: Vec<f64> = bands.iter().zip(&own).map(|(a, b)| a - b).collect();
+                let mean = apart.iter().sum::<f64>() / apart.len() as f64;
+                let square: f64 = apart.iter().map(|d| (d - mean) * (d - mean)).sum();
+                (square / apart.len() as f64).sqrt()
+            };
+            let imported = shape_db(&vibration::normalised(&power, constants.floor));
+            let fitted = shape_db(&transfer::spectrum_over(
+                &constants,
+                &physical,
+                stroke,
+                |k| profiles::density_at(&profiles[name], k),
+            ));
+            println!(
+                "{name:15} level {level_db:6.1} dB, shape {imported:4.1} dB, {fitted:4.1} dB fitted"
+            );
+            [level_db, imported, fitted]
+        })
+        .collect();
+    let mut median = |column: usize| {
+        rows.sort_by(|a, b| a[column].total_cmp(&b[column]));
+        rows[rows.len() / 2][column]
+    };
+    let (level_db, imported, fitted) = (median(0), median(1), median(2));
+    println!("median: level {level_db:.1} dB, shape {imported:.1} dB, {fitted:.1} dB fitted");
+    assert!(level_db.abs() < 3.0 && imported < fitted + 1.0);
 }

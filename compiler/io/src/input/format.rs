@@ -31,6 +31,10 @@ pub enum Format {
     Numpy,
     /// Sound or a recording.
     Wav,
+    /// A PNG picture.
+    Png,
+    /// A TIFF picture.
+    Tiff,
     /// A known format that no command reads.
     Unread(&'static Unread),
 }
@@ -63,6 +67,8 @@ impl Format {
             Self::Hmpg => "an HMPG stream (MPEG haptics)",
             Self::Numpy => "a NumPy array",
             Self::Wav => "a WAV file",
+            Self::Png => "a PNG picture",
+            Self::Tiff => "a TIFF picture",
             Self::Unread(unread) => unread.name,
         }
     }
@@ -97,6 +103,9 @@ impl Format {
             }
             Self::Numpy => AS_CSV,
             Self::Wav => "a recording goes to `asperity import recording`",
+            Self::Png | Self::Tiff => {
+                "give the file that it was made of; a map of heights goes to `asperity import surface`"
+            }
             Self::Unread(unread) => unread.remedy,
         }
     }

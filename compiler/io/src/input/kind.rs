@@ -16,6 +16,8 @@ pub enum InputKind {
     Hatt,
     /// An intermediate model, JSON.
     Model,
+    /// A map of heights, a picture.
+    HeightMap,
     /// Effects of another tool, JSON.
     Effects,
     /// A scene or a manifest, TOML.
@@ -50,10 +52,11 @@ pub enum InputKind {
 
 impl InputKind {
     /// All kinds.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::Asset,
         Self::Hatt,
         Self::Model,
+        Self::HeightMap,
         Self::Effects,
         Self::Scene,
         Self::Manifest,
@@ -82,6 +85,8 @@ impl InputKind {
             | Self::Manifest
             | Self::Description
             | Self::Vocabulary => 16 * MIB,
+            // 8192 × 8192 pixels of floating point.
+            Self::HeightMap => 512 * MIB,
             Self::Scene | Self::Settings | Self::Counts | Self::DiffusionConfig => MIB,
             Self::Corpus => 4 * MIB,
             Self::StudioModule => 128 * MIB,
@@ -99,6 +104,7 @@ impl InputKind {
             // The reader of a HaTT material names the root that it found.
             Self::Hatt => matches!(format, Format::Hatt | Format::Xml),
             Self::Model => format == Format::Model,
+            Self::HeightMap => matches!(format, Format::Png | Format::Tiff),
             // Each import names the one format that it reads.
             Self::Effects => true,
             _ => false,
@@ -127,6 +133,7 @@ impl InputKind {
                 "give a model file of the Penn Haptic Texture Toolkit, `Models_<name>.xml`"
             }
             Self::Model => "give a model as docs/model.md describes it",
+            Self::HeightMap => "crop the map, and state the width of what is left",
             Self::Effects => "cut the file into shorter effects",
             Self::Scene => "give a scene as docs/scenes.md describes it",
             Self::Manifest => "split the manifest, and include its parts",
@@ -151,6 +158,7 @@ impl fmt::Display for InputKind {
             Self::Asset => "an asset",
             Self::Hatt => "a HaTT material",
             Self::Model => "a model file",
+            Self::HeightMap => "a map of heights (PNG or TIFF)",
             Self::Effects => "a file of effects",
             Self::Scene => "a scene",
             Self::Manifest => "a manifest",

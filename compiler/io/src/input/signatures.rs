@@ -18,7 +18,7 @@ const UNPACK: &str = "unpack it, and give the file in it";
 const MEANT: &str = "give the file that was meant";
 
 /// First bytes of formats that nothing here reads, with their names and remedies.
-static UNREAD: [(&[u8], Unread); 30] = [
+static UNREAD: [(&[u8], Unread); 27] = [
     (b"glTF", GLTF),
     (b"bplist00", PLIST),
     (b"MATLAB 5.0 MAT-file", data("a MATLAB file (.mat)", AS_CSV)),
@@ -33,11 +33,8 @@ static UNREAD: [(&[u8], Unread); 30] = [
     (b"\x89MCAP", data("a bag of ROS messages (MCAP)", AS_CSV)),
     (b"SQLite format 3\0", data("an SQLite database", AS_CSV)),
     (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", EXCEL),
-    (b"\x89PNG\r\n\x1a\n", unread("a PNG picture", SOURCE)),
     (b"\xff\xd8\xff", unread("a JPEG picture", SOURCE)),
     (b"GIF89a", unread("a GIF picture", SOURCE)),
-    (b"II*\0", unread("a TIFF picture", SOURCE)),
-    (b"MM\0*", unread("a TIFF picture", SOURCE)),
     (b"%PDF-", unread("a PDF document", SOURCE)),
     (
         b"MThd\0\0",
@@ -109,6 +106,10 @@ pub(super) fn of(bytes: &[u8]) -> Option<Format> {
         Some(Format::Library)
     } else if head.starts_with(b"\x93NUMPY") {
         Some(Format::Numpy)
+    } else if head.starts_with(b"\x89PNG\r\n\x1a\n") {
+        Some(Format::Png)
+    } else if head.starts_with(b"II*\0") || head.starts_with(b"MM\0*") {
+        Some(Format::Tiff)
     } else if let Some((_, unread)) = known {
         Some(Format::Unread(unread))
     } else if let (b"RIFF", Some(kind)) = (head.get(..4).unwrap_or_default(), head.get(8..12)) {

@@ -12,11 +12,9 @@ use crate::{
     pipeline::{Pass, Pipeline, Request, Ringing},
     sources::{ManifestSource, Source, SourceOutput, Tools, key::Parts},
 };
-use asperity_formats::limits::MAX_NAME_BYTES;
 use asperity_io::{
     diagnostic::{Failure, Fault},
     input::{self, Format, InputProblem},
-    shown::shortened,
 };
 use asperity_texture::model::{
     Friction, ModelGrid, Numerator, Provenance, TapBank, TapTrace, TextureModel, defaults,
@@ -134,7 +132,7 @@ impl Source for Effects {
         } = self;
         let (track, crc32) = pipeline.run(Pass::Read, || self.track(tools))?;
         let mut warnings = track.warnings.clone();
-        let name = request.name.clone().unwrap_or_else(|| stem(file));
+        let name = request.name.clone().unwrap_or_else(|| name::of_file(file));
         if !name::fits(&name) {
             let remedy = "give another --name".into();
             let fault = Fault {
@@ -199,16 +197,6 @@ impl Effects {
         let track = track.map_err(|fault| fault.at(&self.file))?;
         Ok((track, crc32fast::hash(&bytes)))
     }
-}
-
-/// The name of a file without its ending, as an asset can hold it.
-fn stem(file: &Path) -> String {
-    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
-    let plain: String = stem
-        .chars()
-        .map(|c| if c.is_control() { '_' } else { c })
-        .collect();
-    shortened(&plain, MAX_NAME_BYTES).to_owned()
 }
 
 /// The texture of a track; `None` for one that does not sound.

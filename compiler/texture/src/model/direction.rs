@@ -142,7 +142,8 @@ impl Direction {
 /// "axis (0, 1, 0); along it as across at 0.42 of the speed, +1.9 dB, μ × 0.84; against the nap × 1.2".
 impl fmt::Display for Direction {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [x, y, z] = self.axis;
+        // Without the sign of a zero.
+        let [x, y, z] = self.axis.map(|c| (1e3 * c).round() / 1e3 + 0.0);
         let along = self.at(1.0);
         write!(f, "axis ({x}, {y}, {z}); along it ")?;
         if along.level > 0.0 {

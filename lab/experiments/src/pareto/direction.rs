@@ -108,6 +108,7 @@ impl<'a> Relief<'a> {
             speed: 1.0,
         };
         let ratios = direction::fit(
+            &SPEEDS_MM_S,
             |v| relief.crossed(&across, v),
             |v| relief.crossed(&along, v),
         );

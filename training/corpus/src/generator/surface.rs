@@ -1,9 +1,8 @@
 //! Heights of a surface along a stroke.
 
 use super::{Physical, constants::Constants};
+use asperity_surface::stroke::LEAST_SPREAD_OCTAVES;
 
-/// Narrowest line in the spectrum of a real surface, octaves. No surface is perfectly regular.
-const LEAST_SPREAD_OCTAVES: f64 = 0.22;
 /// Power of the second harmonic of a regular relief, whose crests are not sinusoids.
 const SECOND_HARMONIC: f64 = 0.06;
 /// Exponent of the spread in the power of the broad relief beside the line. A grating has hardly any

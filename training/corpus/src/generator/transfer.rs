@@ -3,7 +3,7 @@
 use super::{Physical, constants::Constants, surface::relief_power};
 use crate::Bin;
 use asperity_surface::{
-    contact::average_power,
+    contact::fitted_power,
     stylus::Support,
     vibration::{self, Spectrum},
 };
@@ -42,7 +42,7 @@ pub fn gain(constants: &Constants, physical: &Physical, stroke: Bin, freq_hz: f6
         force_n: stroke.force_n,
     };
     let squared = freq_hz * freq_hz;
-    average_power(freq_hz / stroke.speed_mm_s, constants.contact_mm)
+    fitted_power(freq_hz / stroke.speed_mm_s, constants.contact_mm)
         * squared
         * squared
         * constants.stylus().transmission(&support, freq_hz)

@@ -123,8 +123,9 @@ fn third_octaves_db(
         .collect()
 }
 
-/// Log-linear between the points, constant beyond them.
-fn density_at(points: &[Point], k_per_mm: f64) -> f64 {
+/// Density at a spatial frequency, µm²·mm: log-linear between the points, constant beyond them.
+#[must_use]
+pub fn density_at(points: &[Point], k_per_mm: f64) -> f64 {
     let after = points.partition_point(|p| p.k_per_mm < k_per_mm);
     let (Some(low), Some(high)) = (after.checked_sub(1), points.get(after)) else {
         let end = if after == 0 {

@@ -26,6 +26,24 @@ fn what_people_say_and_what_the_textures_do_agree_in_order() {
     assert_in_order(&load_plain().0);
 }
 
+/// Claim: the shipped moduli are those of the corpus.
+/// `ASPERITY_BLESS=1 cargo test -p asperity-corpus --lib the_shipped_moduli` writes them.
+#[test]
+fn the_shipped_moduli_are_those_of_the_corpus() {
+    let file = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../compiler/model/moduli.tsv"
+    );
+    let all = physical().unwrap().into_iter();
+    let text: String = all
+        .map(|(name, physical)| format!("{name}\t{}\n", physical.modulus_mpa))
+        .collect();
+    if std::env::var_os("ASPERITY_BLESS").is_some() {
+        std::fs::write(file, &text).unwrap();
+    }
+    assert_eq!(asperity::learned::modulus::TABLE, text);
+}
+
 /// A difference of ratings that nearly anyone would feel.
 const CLEAR: f64 = 30.0;
 

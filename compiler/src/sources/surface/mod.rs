@@ -1,0 +1,14 @@
+//! Surfaces as a source: a map of heights becomes what a stylus feels on it.
+//!
+//! [`asperity_surface`] reads the map and computes what strokes over it meet; here that becomes a
+//! [`TextureModel`](asperity_texture::model::TextureModel). What no map says, hardness, taps and friction, comes from words,
+//! or else from the learned model. `docs/surfaces.md` describes method and limits.
+
+mod grid;
+mod picture;
+mod report;
+mod source;
+
+pub use asperity_surface::{contact::Tip, map::Size};
+pub use grid::Survey;
+pub use source::{Options, Surface, Surveyed};

@@ -1,0 +1,256 @@
+//! A map of heights as a source.
+
+use super::{
+    grid::{Stroked, Survey},
+    picture, report,
+};
+use crate::{
+    compiled::{Compiled, ErrorReference},
+    learned::{contact, modulus},
+    name,
+    pipeline::{Pass, Pipeline, Request, Ringing},
+    sources::{
+        Findings, ManifestSource, Source, SourceOutput, Tools,
+        key::Parts,
+        prompt::Prompt,
+        recording::{Nearest, complete},
+    },
+};
+use asperity_io::{
+    diagnostic::Failure,
+    input::{InputError, InputKind},
+};
+use asperity_surface::{
+    contact::{Contact, Tip},
+    heights::HeightField,
+    map::{HeightMap, Size},
+};
+use asperity_texture::model::{
+    Friction, FrictionAnchor, Provenance, TextureModel, Wall, attributes, defaults,
+};
+use serde_json::Value;
+use std::{path::PathBuf, sync::Arc};
+
+/// Modulus of something hard, MPa, where no words say another.
+const HARD_MPA: f64 = 1000.0;
+/// Level that heights of no stated depth are scaled to where no words say another, dB re 1 m/s².
+const USUAL_DB: f64 = 0.0;
+/// Steps towards that level.
+const STEPS: usize = 3;
+/// Ranges of heights that may be guessed, mm.
+const RANGES_MM: (f64, f64) = (1e-6, 10.0);
+
+/// What a map does not say of its surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Its size.
+    pub size: Size,
+    /// Words for its material, which say how hard and slippery it is and how it sounds when it is tapped.
+    pub like: Option<String>,
+    /// The tip that strokes it.
+    pub tip: Tip,
+}
+
+/// A map of heights.
+#[derive(Debug, Clone)]
+pub struct Surface {
+    /// The file.
+    pub file: PathBuf,
+    /// The rest.
+    pub options: Options,
+}
+
+/// Findings of a surface.
+#[derive(Debug)]
+pub struct Surveyed {
+    /// The map, with the depth that was taken.
+    pub map: HeightMap,
+    /// What strokes over it meet.
+    pub survey: Survey,
+    /// Height of white above black, mm, that was taken where none was stated.
+    pub guessed_mm: Option<f64>,
+    /// The modulus that was taken, MPa.
+    pub modulus_mpa: f64,
+    /// The words that said it.
+    pub like: Option<String>,
+    /// The materials that complete it where no words do, the nearest first.
+    pub nearest: Vec<Nearest>,
+}
+
+impl Source for Surface {
+    fn needs_model(&self) -> bool {
+        true
+    }
+
+    fn origin(&self) -> String {
+        self.file.display().to_string()
+    }
+
+    fn inputs(&self) -> Vec<PathBuf> {
+        vec![self.file.clone()]
+    }
+
+    fn model(
+        &self,
+        request: &Request,
+        tools: &Tools<'_>,
+        pipeline: &mut Pipeline,
+    ) -> Result<SourceOutput, Failure> {
+        let Options { size, like, tip } = &self.options;
+        let (mut map, crc32) = pipeline.run(Pass::Read, || -> Result<_, Failure> {
+            let bytes = tools.file(&self.file, InputKind::HeightMap);
+            let bytes = bytes.map_err(|problem| InputError {
+                file: self.file.clone(),
+                problem,
+            })?;
+            let map = HeightMap::read(&bytes, size).map_err(|fault| match fault.usage {
+                true => fault,
+                false => fault.at(&self.file),
+            })?;
+            Ok((map, crc32fast::hash(&bytes)))
+        })?;
+        let words = match like {
+            Some(text) => {
+                let prompt = Prompt {
+                    text: text.clone(),
+                    seed: 0,
+                    picture: None,
+                };
+                Some(prompt.model(&Request::default(), tools, pipeline)?)
+            }
+            None => None,
+        };
+        let like_texture = words.as_ref().map(|words| &words.texture);
+        let modulus_mpa = like_texture
+            .and_then(|texture| modulus::of(&texture.friction.anchors))
+            .unwrap_or(HARD_MPA);
+        let (survey, guessed_mm) = pipeline.run(Pass::Grid, || {
+            let wanted_db = like_texture.map(|texture| attributes::of(texture).rough_db);
+            let wanted_db = wanted_db.flatten().unwrap_or(USUAL_DB);
+            let guessed_mm = match size.depth_mm {
+                Some(_) => None,
+                None => Some(scale(&mut map.field, *tip, modulus_mpa, wanted_db)),
+            };
+            let contact = Contact::with(&map.field);
+            (
+                Stroked::new(&contact, *tip, modulus_mpa).survey(),
+                guessed_mm,
+            )
+        });
+        let mut texture = TextureModel {
+            name: name::of_file(&self.file),
+            grid: survey.grid.clone(),
+            taps: Default::default(),
+            friction: Friction {
+                mu: 0.0,
+                anchors: Vec::new(),
+                law: None,
+            },
+            wall: Wall {
+                stiffness_n_m: defaults::STIFFNESS_N_M,
+                damping_n_s_m: defaults::DAMPING_N_S_M,
+            },
+            contact: None,
+            direction: survey.direction,
+            gains: defaults::gains(),
+            provenance: Provenance {
+                generator: format!("asperity {} import surface", env!("CARGO_PKG_VERSION")),
+                source: self
+                    .file
+                    .file_name()
+                    .unwrap_or_default()
+                    .to_string_lossy()
+                    .into_owned(),
+                source_crc32: crc32,
+                prompt: None,
+                seed: 0,
+                fidelity: "full".into(),
+                taps_synthetic: true,
+                lsf_error_db: 0.0,
+                notes: String::new(),
+            },
+        };
+        let mut nearest = Vec::new();
+        if let Some(words) = &words {
+            let like = words.texture.clone();
+            texture.taps = like.taps;
+            texture.friction = like.friction;
+            texture.wall = like.wall;
+            texture.contact = like.contact;
+        } else {
+            let model = tools.model()?;
+            let completed = pipeline.run(Pass::Complete, || {
+                complete(model, &texture.grid, &texture.gains)
+            })?;
+            texture.taps = completed.taps;
+            texture.friction.mu = completed.mu;
+            texture.friction.anchors = vec![FrictionAnchor {
+                name: texture.name.clone(),
+                mu: completed.mu,
+                weight: 1.0,
+            }];
+            texture.wall.stiffness_n_m = completed.stiffness_n_m;
+            contact::set(&mut texture, completed.contact);
+            nearest = completed.nearest;
+        }
+        let surveyed = Surveyed {
+            map,
+            survey,
+            guessed_mm,
+            modulus_mpa,
+            like: like.clone(),
+            nearest,
+        };
+        texture.provenance.notes = report::notes(&surveyed);
+        let picture = request
+            .preview_px
+            .map(|size_px| picture::png(&surveyed.map.field, size_px));
+        let mut warnings = report::warnings(&surveyed);
+        warnings.extend(words.iter().flat_map(|words| words.warnings.clone()));
+        Ok(SourceOutput {
+            truth: Some(ErrorReference::Texture),
+            ringing: Ringing::Stabilised,
+            picture: picture.transpose()?,
+            certainty: words.and_then(|words| words.certainty),
+            warnings,
+            findings: Some(Arc::new(surveyed)),
+            ..SourceOutput::new(texture)
+        })
+    }
+}
+
+/// Scales heights of a range of 1 mm until strokes over them have a level: the range, mm.
+fn scale(field: &mut HeightField, tip: Tip, modulus_mpa: f64, wanted_db: f64) -> f64 {
+    let whole = field.clone();
+    let mut range_mm = 0.1;
+    for _ in 0..STEPS {
+        let contact = Contact::with(&whole.scaled(range_mm));
+        let found_db = Stroked::new(&contact, tip, modulus_mpa).level_db();
+        let factor = libm::exp10((wanted_db - found_db) / 20.0);
+        range_mm = (range_mm * factor).clamp(RANGES_MM.0, RANGES_MM.1);
+    }
+    *field = whole.scaled(range_mm);
+    range_mm
+}
+
+impl ManifestSource for Surface {
+    fn key(&self, parts: Parts, _: &Tools<'_>) -> Result<Parts, Failure> {
+        let Options { size, like, tip } = &self.options;
+        let parts = parts
+            .number(size.width_mm)
+            .number(size.depth_mm.unwrap_or(f64::NAN))
+            .number(tip.radius_mm)
+            .text(like.as_deref().unwrap_or_default());
+        Ok(parts.file(&self.file, InputKind::HeightMap)?)
+    }
+}
+
+impl Findings for Surveyed {
+    fn text(&self, compiled: &Compiled) -> String {
+        report::text(self, compiled)
+    }
+
+    fn json(&self, compiled: &Compiled) -> Value {
+        report::json(self, compiled)
+    }
+}
