@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 /// Contact of a real tip over Hertz's: with it, measured profiles vibrate in the median within 2 dB as strongly as measured
 /// strokes over materials of their names do (`training/corpus/tests/measured.rs`).
 const CONTACT_FACTOR: f64 = 2.0;
-/// How far a tip sinks below the height at which it would roll, as a part of its indentation. Found with the simulation of
+/// Depth that a tip sinks below the height at which it would roll, as a part of its indentation. Found with the simulation of
 /// `device-sim/tests/dragged_tip.rs`, which an eighth to a half fit alike.
 const SINKS: f64 = 0.25;
 
@@ -70,7 +70,7 @@ impl Tip {
         rolling
     }
 
-    /// How far the tip lies above its lowest point at 1, 2, … points from it, as far as a relief of this range can touch it.
+    /// Heights of the tip above its lowest point at 1, 2, … points from it, as far as a relief of this range can touch it.
     fn sags_um(&self, pitch_mm: f64, range_um: f32) -> Vec<f32> {
         let sag =
             |n: i32| (1e3 * (f64::from(n) * pitch_mm).powi(2) / (2.0 * self.radius_mm)) as f32;

@@ -21,7 +21,7 @@ const FITTED: std::ops::Range<f64> = 0.25..0.7;
 /// Steepest and flattest power of the heights beyond what was measured.
 const SLOPES: (f64, f64) = (-9.0, -1.0);
 
-/// What strokes over a relief meet, in one direction and under one force.
+/// Strokes over a relief in one direction and under one force.
 #[derive(Debug, Clone)]
 pub struct Strokes {
     /// Octave of the first point, re 1/mm.

@@ -138,7 +138,7 @@ impl Size {
     }
 }
 
-/// One number a pixel, if it is grey.
+/// The grey of every pixel, if all are grey.
 fn grey(raster: &Raster) -> Result<Vec<f32>, Fault> {
     if let Some(at) = raster.samples.iter().position(|sample| !sample.is_finite()) {
         let bad = raster
