@@ -46,7 +46,7 @@ fn png(side: usize, height: impl Fn(f64, f64) -> f64) -> Vec<u8> {
 fn compiled(map: &[u8], width_mm: f64, depth_mm: f64) -> Compiled {
     let file = Path::new("map.png");
     let surface = Surface {
-        file: file.to_owned(),
+        path: file.to_owned(),
         options: Options {
             size: Size {
                 width_mm,
@@ -54,6 +54,7 @@ fn compiled(map: &[u8], width_mm: f64, depth_mm: f64) -> Compiled {
             },
             like: None,
             tip: Tip::STYLUS,
+            convention: None,
         },
     };
     let tools = Tools {

@@ -1,7 +1,7 @@
 //! Arguments of the commands that check and import what others measured or modelled.
 
 use super::{ImportEffects, Inference, PreviewOptions, ReportOptions};
-use asperity::passes::reduce::Fidelity;
+use asperity::{passes::reduce::Fidelity, sources::surface::Convention};
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -36,7 +36,7 @@ pub(crate) enum Import {
     Model(ImportModel),
     /// Compile a recording of a tool on a surface: its acceleration, force and motion
     Recording(ImportRecording),
-    /// Compile a height map of a surface into a texture
+    /// Compile a height map, a normal map or a PBR material into a texture
     Surface(ImportSurface),
     /// Compile a NiceVibrations `.haptic` file into a texture
     Haptic(ImportEffects),
@@ -106,17 +106,20 @@ pub(crate) enum TipChoice {
 #[command(
     after_help = "The tip rolls over the heights, and its contact averages them; what tool and hand \
 make of that at many speeds and forces becomes the texture, with the axis of ribs or a grain. \
-Heights are greyscale PNG or TIFF, white high; 16 bits keep fine relief. What a map cannot say, \
+Heights are greyscale, white high; 16 bits keep fine relief. Of a folder, heights, normals and the \
+base colour, which becomes the preview, are told by their usual names; long waves are those of the \
+heights, short ones those of the normals. What a map cannot say, \
 hardness, taps and friction, comes from --like, or else from materials that vibrate alike. \
 docs/surfaces.md explains the method and its limits.
 
 Examples:
   asperity import surface oak.png -o oak.asp --width-mm 100 --depth-mm 0.4 --like 'planed oak'
   asperity import surface scan.tif -o scan.asp --width-mm 12.5 --depth-mm 0.08 --json
+  asperity import surface Wood049_2K-PNG/ -o wood.asp --width-mm 300 --like wood
   asperity import surface cracks.png -o cracks.asp --width-mm 50 --depth-mm -0.3"
 )]
 pub(crate) struct ImportSurface {
-    /// The height map (.png, .tif)
+    /// A height map or a normal map (.png, .tif, .jpg), or a folder with the pictures of a material
     pub(crate) path: PathBuf,
     /// The asset to write; `-` is standard output
     #[arg(short, long)]
@@ -128,6 +131,9 @@ pub(crate) struct ImportSurface {
     /// is low [default: as strong as --like]
     #[arg(long, value_name = "D", allow_negative_numbers = true)]
     pub(crate) depth_mm: Option<f64>,
+    /// Where green points to in normals: up, as OpenGL has it, or down, as DirectX does [default: what fits a surface]
+    #[arg(long, value_name = "gl|dx")]
+    pub(crate) normal: Option<Convention>,
     /// Words for the material: its hardness, taps and friction
     #[arg(long, value_name = "PROMPT")]
     pub(crate) like: Option<String>,

@@ -84,13 +84,14 @@ pub(crate) fn surface(args: &ImportSurface, console: Console) -> Result<(), Fail
         prompt::check(like).map_err(one)?;
     }
     let source = Surface {
-        file: args.path.clone(),
+        path: args.path.clone(),
         options: SurfaceOptions {
             size: Size {
                 width_mm: args.width_mm,
                 depth_mm: args.depth_mm,
             },
             like: args.like.clone(),
+            convention: args.normal,
             tip: match args.tip {
                 TipChoice::Stylus => Tip::STYLUS,
                 TipChoice::Fingertip => Tip::FINGERTIP,

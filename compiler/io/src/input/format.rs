@@ -35,6 +35,8 @@ pub enum Format {
     Png,
     /// A TIFF picture.
     Tiff,
+    /// A JPEG picture.
+    Jpeg,
     /// A known format that no command reads.
     Unread(&'static Unread),
 }
@@ -69,6 +71,7 @@ impl Format {
             Self::Wav => "a WAV file",
             Self::Png => "a PNG picture",
             Self::Tiff => "a TIFF picture",
+            Self::Jpeg => "a JPEG picture",
             Self::Unread(unread) => unread.name,
         }
     }
@@ -103,7 +106,7 @@ impl Format {
             }
             Self::Numpy => AS_CSV,
             Self::Wav => "a recording goes to `asperity import recording`",
-            Self::Png | Self::Tiff => {
+            Self::Png | Self::Tiff | Self::Jpeg => {
                 "give the file that it was made of; a map of heights goes to `asperity import surface`"
             }
             Self::Unread(unread) => unread.remedy,

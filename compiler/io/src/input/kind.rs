@@ -104,7 +104,7 @@ impl InputKind {
             // The reader of a HaTT material names the root that it found.
             Self::Hatt => matches!(format, Format::Hatt | Format::Xml),
             Self::Model => format == Format::Model,
-            Self::HeightMap => matches!(format, Format::Png | Format::Tiff),
+            Self::HeightMap => matches!(format, Format::Png | Format::Tiff | Format::Jpeg),
             // Each import names the one format that it reads.
             Self::Effects => true,
             _ => false,
@@ -158,7 +158,7 @@ impl fmt::Display for InputKind {
             Self::Asset => "an asset",
             Self::Hatt => "a HaTT material",
             Self::Model => "a model file",
-            Self::HeightMap => "a map of heights (PNG or TIFF)",
+            Self::HeightMap => "a map of heights or normals (PNG, TIFF or JPEG)",
             Self::Effects => "a file of effects",
             Self::Scene => "a scene",
             Self::Manifest => "a manifest",

@@ -18,7 +18,7 @@ const UNPACK: &str = "unpack it, and give the file in it";
 const MEANT: &str = "give the file that was meant";
 
 /// First bytes of formats that nothing here reads, with their names and remedies.
-static UNREAD: [(&[u8], Unread); 27] = [
+static UNREAD: [(&[u8], Unread); 26] = [
     (b"glTF", GLTF),
     (b"bplist00", PLIST),
     (b"MATLAB 5.0 MAT-file", data("a MATLAB file (.mat)", AS_CSV)),
@@ -33,7 +33,6 @@ static UNREAD: [(&[u8], Unread); 27] = [
     (b"\x89MCAP", data("a bag of ROS messages (MCAP)", AS_CSV)),
     (b"SQLite format 3\0", data("an SQLite database", AS_CSV)),
     (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", EXCEL),
-    (b"\xff\xd8\xff", unread("a JPEG picture", SOURCE)),
     (b"GIF89a", unread("a GIF picture", SOURCE)),
     (b"%PDF-", unread("a PDF document", SOURCE)),
     (
@@ -110,6 +109,8 @@ pub(super) fn of(bytes: &[u8]) -> Option<Format> {
         Some(Format::Png)
     } else if head.starts_with(b"II*\0") || head.starts_with(b"MM\0*") {
         Some(Format::Tiff)
+    } else if head.starts_with(b"\xff\xd8\xff") {
+        Some(Format::Jpeg)
     } else if let Some((_, unread)) = known {
         Some(Format::Unread(unread))
     } else if let (b"RIFF", Some(kind)) = (head.get(..4).unwrap_or_default(), head.get(8..12)) {

@@ -1,4 +1,4 @@
-//! Surfaces as a source: a map of heights becomes what a stylus feels on it.
+//! Surfaces as a source: maps of heights or normals become what a stylus feels on it.
 //!
 //! [`asperity_surface`] reads the map and computes what strokes over it meet; here that becomes a
 //! [`TextureModel`](asperity_texture::model::TextureModel). What no map says, hardness, taps and friction, comes from words,
@@ -9,6 +9,9 @@ mod picture;
 mod report;
 mod source;
 
-pub use asperity_surface::{contact::Tip, map::Size};
+pub use asperity_surface::{
+    contact::Tip,
+    map::{Convention, Size},
+};
 pub use grid::Survey;
 pub use source::{Options, Surface, Surveyed};

@@ -17,13 +17,13 @@ use crate::{
     },
 };
 use asperity_io::{
-    diagnostic::Failure,
+    diagnostic::{Failure, Fault},
     input::{InputError, InputKind},
 };
 use asperity_surface::{
     contact::{Contact, Tip},
     heights::HeightField,
-    map::{HeightMap, Size},
+    map::{Convention, HeightMap, Material, Pictures, Raster, Size},
 };
 use asperity_texture::model::{
     Friction, FrictionAnchor, Provenance, TextureModel, Wall, attributes, defaults,
@@ -49,13 +49,63 @@ pub struct Options {
     pub like: Option<String>,
     /// The tip that strokes it.
     pub tip: Tip,
+    /// Where green points to in its normals; guessed if `None`.
+    pub convention: Option<Convention>,
 }
 
-/// A map of heights.
+impl Surface {
+    /// The pictures of the path.
+    fn material(&self) -> Result<Material, Fault> {
+        if self.path.is_dir() {
+            return Material::of(&self.path);
+        }
+        Ok(Material {
+            height: Some(self.path.clone()),
+            ..Material::default()
+        })
+    }
+
+    /// The heights, what the surface looks like, and the CRC-32 of all pictures.
+    fn read(&self, tools: &Tools<'_>) -> Result<(HeightMap, Option<Raster>, u32), Failure> {
+        let material = self.material()?;
+        let mut hasher = crc32fast::Hasher::new();
+        let mut raster = |file: &Option<PathBuf>| -> Result<Option<Raster>, Failure> {
+            let Some(file) = file else {
+                return Ok(None);
+            };
+            let bytes = tools.file(file, InputKind::HeightMap);
+            let bytes = bytes.map_err(|problem| InputError {
+                file: file.clone(),
+                problem,
+            })?;
+            hasher.update(&bytes);
+            Ok(Some(Raster::read(&bytes).map_err(|fault| fault.at(file))?))
+        };
+        let (height, normal) = (raster(&material.height)?, raster(&material.normal)?);
+        let color = raster(&material.color)?;
+        let convention = self.options.convention.or(material.convention);
+        let pictures = match (height, normal) {
+            (Some(only), None) => Pictures::of(only, convention),
+            (height, normal) => Pictures {
+                height,
+                normal,
+                convention,
+            },
+        };
+        let heights = pictures.heights(&self.options.size);
+        let heights = heights.map_err(|fault| match fault.usage {
+            true => fault,
+            false => fault.at(&self.path),
+        })?;
+        Ok((heights, color, hasher.finalize()))
+    }
+}
+
+/// Maps of a surface.
 #[derive(Debug, Clone)]
 pub struct Surface {
-    /// The file.
-    pub file: PathBuf,
+    /// A height map or a normal map, or a folder with the pictures of a material.
+    pub path: PathBuf,
     /// The rest.
     pub options: Options,
 }
@@ -83,11 +133,15 @@ impl Source for Surface {
     }
 
     fn origin(&self) -> String {
-        self.file.display().to_string()
+        self.path.display().to_string()
     }
 
     fn inputs(&self) -> Vec<PathBuf> {
-        vec![self.file.clone()]
+        match self.material() {
+            Ok(material) => material.files().cloned().collect(),
+            // Reading it says why.
+            Err(_) => vec![self.path.clone()],
+        }
     }
 
     fn model(
@@ -96,19 +150,8 @@ impl Source for Surface {
         tools: &Tools<'_>,
         pipeline: &mut Pipeline,
     ) -> Result<SourceOutput, Failure> {
-        let Options { size, like, tip } = &self.options;
-        let (mut map, crc32) = pipeline.run(Pass::Read, || -> Result<_, Failure> {
-            let bytes = tools.file(&self.file, InputKind::HeightMap);
-            let bytes = bytes.map_err(|problem| InputError {
-                file: self.file.clone(),
-                problem,
-            })?;
-            let map = HeightMap::read(&bytes, size).map_err(|fault| match fault.usage {
-                true => fault,
-                false => fault.at(&self.file),
-            })?;
-            Ok((map, crc32fast::hash(&bytes)))
-        })?;
+        let Options { like, tip, .. } = &self.options;
+        let (mut map, color, crc32) = pipeline.run(Pass::Read, || self.read(tools))?;
         let words = match like {
             Some(text) => {
                 let prompt = Prompt {
@@ -127,9 +170,9 @@ impl Source for Surface {
         let (survey, guessed_mm) = pipeline.run(Pass::Grid, || {
             let wanted_db = like_texture.map(|texture| attributes::of(texture).rough_db);
             let wanted_db = wanted_db.flatten().unwrap_or(USUAL_DB);
-            let guessed_mm = match size.depth_mm {
-                Some(_) => None,
-                None => Some(scale(&mut map.field, *tip, modulus_mpa, wanted_db)),
+            let guessed_mm = match map.has_depth {
+                true => None,
+                false => Some(scale(&mut map.field, *tip, modulus_mpa, wanted_db)),
             };
             let contact = Contact::with(&map.field);
             (
@@ -138,7 +181,7 @@ impl Source for Surface {
             )
         });
         let mut texture = TextureModel {
-            name: name::of_file(&self.file),
+            name: name::of_file(&self.path),
             grid: survey.grid.clone(),
             taps: Default::default(),
             friction: Friction {
@@ -156,7 +199,7 @@ impl Source for Surface {
             provenance: Provenance {
                 generator: format!("asperity {} import surface", env!("CARGO_PKG_VERSION")),
                 source: self
-                    .file
+                    .path
                     .file_name()
                     .unwrap_or_default()
                     .to_string_lossy()
@@ -202,9 +245,10 @@ impl Source for Surface {
             nearest,
         };
         texture.provenance.notes = report::notes(&surveyed);
-        let picture = request
-            .preview_px
-            .map(|size_px| picture::png(&surveyed.map.field, size_px));
+        let picture = request.preview_px.map(|size_px| match &color {
+            Some(color) => picture::of_color(color, size_px),
+            None => picture::of_heights(&surveyed.map.field, size_px),
+        });
         let mut warnings = report::warnings(&surveyed);
         warnings.extend(words.iter().flat_map(|words| words.warnings.clone()));
         Ok(SourceOutput {
@@ -235,13 +279,20 @@ fn scale(field: &mut HeightField, tip: Tip, modulus_mpa: f64, wanted_db: f64) ->
 
 impl ManifestSource for Surface {
     fn key(&self, parts: Parts, _: &Tools<'_>) -> Result<Parts, Failure> {
-        let Options { size, like, tip } = &self.options;
+        let Options {
+            size,
+            like,
+            tip,
+            convention,
+        } = &self.options;
         let parts = parts
             .number(size.width_mm)
             .number(size.depth_mm.unwrap_or(f64::NAN))
             .number(tip.radius_mm)
+            .text(convention.map_or("", Convention::name))
             .text(like.as_deref().unwrap_or_default());
-        Ok(parts.file(&self.file, InputKind::HeightMap)?)
+        let mut files = self.inputs().into_iter();
+        Ok(files.try_fold(parts, |parts, file| parts.file(&file, InputKind::HeightMap))?)
     }
 }
 

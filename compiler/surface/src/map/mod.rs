@@ -1,23 +1,32 @@
-//! Pictures of heights: what they say, and what has to be guessed.
+//! Pictures of heights and of normals: what they say, and what has to be guessed.
 
+mod grey;
+mod material;
+mod normal_map;
 mod raster;
 
+pub use material::Material;
+pub use normal_map::Convention;
 pub use raster::Raster;
 
-use crate::heights::{HeightField, SIDE};
+use crate::{
+    heights::{HeightField, SIDE},
+    plane::Plane,
+};
 use asperity_io::diagnostic::Fault;
 
 /// Points further apart than this give strokes of 20 mm/s nothing above 30 Hz, mm.
 const COARSEST_MM: f64 = 1.0 / 3.0;
-/// Differences of red, green and blue up to this are grey, as parts of the range.
-const GREY: f32 = 1.5 / 255.0;
-/// Different numbers up to which a map counts as stored in steps.
-const FEW: usize = 256;
 /// Skewness from which crests are so narrow that the map may show depths.
 const CRESTED: f64 = 1.0;
 /// A difference of a pixel's sides that is said.
 const UNEQUAL: f64 = 0.01;
 const DEEPEST_MM: f64 = 100.0;
+/// Points of the wave at which heights give way to normals, and how many times shorter and longer waves tell their depths.
+const CROSSING: f64 = 32.0;
+const AROUND: f64 = 2.0;
+/// A difference of a stated depth from that of the normals that is said, dB.
+const CONTRADICTED_DB: f64 = 3.0;
 
 /// The size of a map, which no picture says.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,95 +38,139 @@ pub struct Size {
     pub depth_mm: Option<f64>,
 }
 
+/// The pictures of a surface, of the same size, one at least.
+#[derive(Debug, Clone, Default)]
+pub struct Pictures {
+    /// Its heights.
+    pub height: Option<Raster>,
+    /// Its normals.
+    pub normal: Option<Raster>,
+    /// Where green points to in these, if it is known.
+    pub convention: Option<Convention>,
+}
+
 /// A map as heights.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeightMap {
-    /// The heights, levelled; without a depth in the size, of 1 mm from black to white.
+    /// The heights, levelled; of 1 mm from black to white where [`Self::has_depth`] is false.
     pub field: HeightField,
+    /// True if the depth was stated, or follows from normals.
+    pub has_depth: bool,
     /// Pixels of the picture.
     pub pixels: [usize; 2],
     /// Findings that the user should know.
     pub notes: Vec<String>,
 }
 
-impl HeightMap {
-    /// The heights of a picture.
+impl Pictures {
+    /// One picture, of heights or, by its colours, of normals.
+    #[must_use]
+    pub fn of(raster: Raster, convention: Option<Convention>) -> Self {
+        let (height, normal) = match normal_map::is_normal_map(&raster) {
+            true => (None, Some(raster)),
+            false => (Some(raster), None),
+        };
+        Self {
+            height,
+            normal,
+            convention,
+        }
+    }
+
+    /// The heights that they show.
     ///
     /// # Errors
-    /// [`Fault`] for a size that no map has, a picture that cannot be read or does not show heights, and one too coarse
-    /// to vibrate.
-    pub fn read(bytes: &[u8], size: &Size) -> Result<Self, Fault> {
+    /// [`Fault`] for a size that no map has, pictures that show no heights or are of two sizes, and those too coarse to
+    /// vibrate.
+    pub fn heights(&self, size: &Size) -> Result<HeightMap, Fault> {
         size.check()?;
-        let raster = Raster::read(bytes)?;
-        let samples = grey(&raster)?;
+        let (height, normal) = (self.height.as_ref(), self.normal.as_ref());
+        let Some(raster) = height.or(normal) else {
+            let what = "there is no picture of heights or normals";
+            return Err(Fault::new(what, "give a height map or a normal map"));
+        };
         let (columns, rows) = (raster.width, raster.height());
-        if columns.min(rows) < SIDE.0 {
-            let what = format!(
-                "{columns} × {rows} pixels; at least {0} × {0} are needed",
-                SIDE.0
-            );
-            return Err(Fault::new(what, "give a larger map"));
+        if let Some(other) = normal.filter(|other| [other.width, other.height()] != [columns, rows])
+        {
+            let (x, y) = (other.width, other.height());
+            let what = format!("heights have {columns} × {rows} pixels, normals {x} × {y}");
+            return Err(Fault::new(what, "scale both to the same size"));
         }
-        let pitch_mm = size.width_mm / columns as f64;
-        let coarsest_mm = pitch_mm.max(pitch_mm * raster.aspect);
-        if coarsest_mm > COARSEST_MM {
-            let what = format!(
-                "points {coarsest_mm:.2} mm apart are too coarse: strokes of 20 mm/s meet nothing above 30 Hz"
-            );
-            let most_mm = size.width_mm * COARSEST_MM / coarsest_mm;
-            let fewest = (columns as f64 * coarsest_mm / COARSEST_MM).ceil();
-            let remedy = format!(
-                "give a map of at least {fewest} pixels a row, or the true width if it is {most_mm:.0} mm or less"
-            );
-            return Err(Fault::new(what, remedy).field("--width-mm"));
-        }
-        let scale_um = 1e3
-            * match (size.depth_mm, raster.largest) {
-                (Some(depth_mm), Some(_)) => depth_mm,
-                (Some(depth_mm), None) => depth_mm / f64::from(range(&samples)).max(1e-30),
-                (None, _) => 1.0,
-            };
+        let pitch_mm = size.pitch_mm(raster)?;
         let mut notes = Vec::new();
-        let heights = samples.iter().map(|h| (f64::from(*h) * scale_um) as f32);
-        let pitches = [pitch_mm, pitch_mm * raster.aspect];
-        let field = HeightField::new(columns, pitches, heights.collect()).ok_or_else(|| {
-            let what = "heights beyond what a number holds";
-            Fault::new(what, "state a --depth-mm that the surface has")
-        })?;
         if (raster.aspect - 1.0).abs() > UNEQUAL {
             notes.push(format!(
                 "its pixels are {:.3} times as high as wide, as the file says",
                 raster.aspect
             ));
         }
-        if raster.is_coded {
-            notes.push("the file says that its numbers are coded for a screen (sRGB); they are taken as heights as they are: save it as linear data if that is wrong".into());
-        }
-        let mut field = field.levelled();
-        if let Some(step) = raster.largest.and_then(|_| step(&samples)) {
-            let step_um = (step * scale_um).abs();
-            notes.push(format!(
-                "heights are stored in steps of {step_um:.3} µm, whose noise was filtered out; 16 bits keep fine relief"
-            ));
-            field = field.smoothed(step_um);
-        }
-        if skewness(&field) > CRESTED {
+        let field = match height {
+            Some(raster) => Some(by_heights(raster, pitch_mm, size.depth_mm, &mut notes)?),
+            None => None,
+        };
+        let by_normals = match (normal, size.depth_mm, &field) {
+            (None, ..) => None,
+            (_, Some(_), None) => {
+                let what = "a normal map says its own depth";
+                let fault = Fault::new(what, "leave it out, or give the height map as well");
+                return Err(fault.field("--depth-mm").usage());
+            }
+            (Some(raster), ..) => Some(self.by_normals(raster, pitch_mm, &mut notes)?),
+        };
+        let has_depth = size.depth_mm.is_some() || by_normals.is_some();
+        let field = match (field, by_normals) {
+            (Some(low), Some(high)) => joined(low, &high, size.depth_mm.is_some(), &mut notes),
+            (Some(field), None) | (None, Some(field)) => field,
+            (None, None) => unreachable!("there is a picture"),
+        };
+        let field = field.levelled();
+        if height.is_some() && grey::skewness(&field) > CRESTED {
             notes.push("narrow crests rise from a wide ground; if the map shows depths, state a negative --depth-mm".into());
         }
+        let whole_mm = [columns as f64 * pitch_mm[0], rows as f64 * pitch_mm[1]];
         let field = field.bounded();
-        let whole = [columns, rows];
-        if [0, 1].iter().any(|&axis| {
-            let kept = [field.width(), field.height()][axis] as f64 * field.pitch_mm()[axis];
-            kept < 0.99 * whole[axis] as f64 * pitches[axis]
-        }) {
-            let [x, y] = [field.width(), field.height()];
+        let [x, y] = [field.width(), field.height()];
+        let kept_mm = [
+            x as f64 * field.pitch_mm()[0],
+            y as f64 * field.pitch_mm()[1],
+        ];
+        if kept_mm[0] < 0.99 * whole_mm[0] || kept_mm[1] < 0.99 * whole_mm[1] {
             notes.push(format!("of the map, its middle was read, {x} × {y} points"));
         }
-        Ok(Self {
+        Ok(HeightMap {
             field,
-            pixels: whole,
+            has_depth,
+            pixels: [columns, rows],
             notes,
         })
+    }
+
+    fn by_normals(
+        &self,
+        raster: &Raster,
+        pitch_mm: [f64; 2],
+        notes: &mut Vec<String>,
+    ) -> Result<HeightField, Fault> {
+        grey::finite(raster)?;
+        if !normal_map::is_normal_map(raster) {
+            let what = "the picture of normals has other colours than a normal map";
+            return Err(Fault::new(
+                what,
+                "give a normal map in tangent space, mostly blue",
+            ));
+        }
+        let points = raster.width * raster.height();
+        let flat =
+            HeightField::new(raster.width, pitch_mm, vec![0.0; points]).ok_or_else(unheld)?;
+        let (field, convention, is_clear) = normal_map::heights(raster, &flat, self.convention);
+        if self.convention.is_none() {
+            let name = convention.name();
+            notes.push(match is_clear {
+                true => format!("green is taken as `--normal {name}`, for with it the slopes belong to a surface"),
+                false => format!("green is taken as `--normal {name}`; the picture does not tell"),
+            });
+        }
+        Ok(field)
     }
 }
 
@@ -136,95 +189,122 @@ impl Size {
         }
         Ok(())
     }
-}
 
-/// The grey of every pixel, if all are grey.
-fn grey(raster: &Raster) -> Result<Vec<f32>, Fault> {
-    if let Some(at) = raster.samples.iter().position(|sample| !sample.is_finite()) {
-        let bad = raster
-            .samples
-            .iter()
-            .filter(|sample| !sample.is_finite())
-            .count();
-        let pixel = at / raster.channels;
-        let what = format!(
-            "{bad} of its numbers are no heights (NaN or infinite), the first in row {}, column {}",
-            pixel / raster.width + 1,
-            pixel % raster.width + 1
-        );
-        return Err(Fault::new(
-            what,
-            "fill the holes of the scan, as its software can",
-        ));
+    /// Distance of the pixels in x and in y, mm.
+    fn pitch_mm(&self, raster: &Raster) -> Result<[f64; 2], Fault> {
+        let (columns, rows) = (raster.width, raster.height());
+        if columns.min(rows) < SIDE.0 {
+            let least = SIDE.0;
+            let what = format!("{columns} × {rows} pixels; at least {least} × {least} are needed");
+            return Err(Fault::new(what, "give a larger map"));
+        }
+        let pitch_mm = self.width_mm / columns as f64;
+        let coarsest_mm = pitch_mm.max(pitch_mm * raster.aspect);
+        if coarsest_mm > COARSEST_MM {
+            let what = format!(
+                "points {coarsest_mm:.2} mm apart are too coarse: strokes of 20 mm/s meet nothing above 30 Hz"
+            );
+            let most_mm = self.width_mm * COARSEST_MM / coarsest_mm;
+            let fewest = (columns as f64 * coarsest_mm / COARSEST_MM).ceil();
+            let remedy = format!(
+                "give a map of at least {fewest} pixels a row, or the true width if it is {most_mm:.0} mm or less"
+            );
+            return Err(Fault::new(what, remedy).field("--width-mm"));
+        }
+        Ok([pitch_mm, pitch_mm * raster.aspect])
     }
-    if raster.channels == 1 {
-        return Ok(raster.samples.clone());
-    }
-    let pixels = || raster.samples.chunks_exact(3);
-    if pixels().all(|p| (p[0] - p[1]).abs() <= GREY && (p[1] - p[2]).abs() <= GREY) {
-        return Ok(pixels().map(|p| p[1]).collect());
-    }
-    let what = if is_normal_map(raster) {
-        "its colours are those of a normal map, not of heights"
-    } else {
-        "a picture in colours, such as a photograph or a base colour, shows no heights"
-    };
-    Err(Fault::new(
-        what,
-        "give the height map (displacement) of the material, in grey",
-    ))
 }
 
-/// Returns true if most pixels are directions of length 1 that point out of the surface.
-fn is_normal_map(raster: &Raster) -> bool {
-    let unit = |pixel: &[f32]| {
-        let square: f32 = pixel.iter().map(|c| (2.0 * c - 1.0).powi(2)).sum();
-        pixel[2] > 0.5 && (0.8..1.2).contains(&square)
-    };
-    let pixels = raster.samples.chunks_exact(3);
-    let units = pixels.clone().filter(|pixel| unit(pixel)).count();
-    10 * units > 9 * pixels.len()
+fn unheld() -> Fault {
+    let what = "heights beyond what a number holds";
+    Fault::new(what, "state a --depth-mm that the surface has")
 }
 
-fn range(samples: &[f32]) -> f32 {
-    let ends = samples.iter().fold((f32::MAX, f32::MIN), |(low, high), h| {
-        (low.min(*h), high.max(*h))
-    });
-    ends.1 - ends.0
-}
-
-/// The step of whole numbers that take few values; `None` for many, and for one.
-fn step(samples: &[f32]) -> Option<f64> {
-    let mut values: Vec<f32> = Vec::new();
-    for sample in samples {
-        if let Err(at) = values.binary_search_by(|value| value.total_cmp(sample)) {
-            if values.len() == FEW {
-                return None;
+/// The heights of a grey picture, without the noise of its steps.
+fn by_heights(
+    raster: &Raster,
+    pitch_mm: [f64; 2],
+    depth_mm: Option<f64>,
+    notes: &mut Vec<String>,
+) -> Result<HeightField, Fault> {
+    let samples = grey::grey(raster)?;
+    let scale_um = 1e3
+        * match (depth_mm, raster.largest) {
+            (Some(depth_mm), Some(_)) => depth_mm,
+            (depth_mm, None) => {
+                depth_mm.unwrap_or(1.0) / f64::from(grey::range(&samples)).max(1e-30)
             }
-            values.insert(at, *sample);
+            (None, Some(_)) => 1.0,
+        };
+    let heights = samples.iter().map(|h| (f64::from(*h) * scale_um) as f32);
+    let field = HeightField::new(raster.width, pitch_mm, heights.collect()).ok_or_else(unheld)?;
+    if raster.is_coded {
+        notes.push("the file says that its numbers are coded for a screen (sRGB); they are taken as heights as they are: save it as linear data if that is wrong".into());
+    }
+    if raster.is_lossy {
+        notes.push(
+            "a JPEG keeps what eyes see of heights: give a PNG or TIFF where there is one".into(),
+        );
+    }
+    let field = field.levelled();
+    let Some(step) = raster.largest.and_then(|_| grey::step(&samples)) else {
+        return Ok(field);
+    };
+    let step_um = (step * scale_um).abs();
+    notes.push(match depth_mm {
+        Some(_) => format!("heights are stored in steps of {step_um:.3} µm, whose noise was filtered out; 16 bits keep fine relief"),
+        None => format!("heights are stored in {:.0} steps, whose noise was filtered out; 16 bits keep fine relief", 1.0 / step),
+    });
+    Ok(field.smoothed(step_um))
+}
+
+/// Long waves of the heights and short ones of the normals, which also tell the depth where none is stated.
+fn joined(
+    low: HeightField,
+    high: &HeightField,
+    is_stated: bool,
+    notes: &mut Vec<String>,
+) -> HeightField {
+    let plane = |field: &HeightField| {
+        let mut heights: Vec<f64> = field.heights_um().iter().map(|h| f64::from(*h)).collect();
+        Plane::of(field.width(), &mut heights)
+    };
+    let (mut long, mut short) = (plane(&low), plane(high));
+    let per_mm = low.step_per_mm();
+    let crossing_per_mm = 1.0 / (CROSSING * low.pitch_mm()[0].max(low.pitch_mm()[1]));
+    let away = |[x, y]: [f64; 2]| libm::hypot(x * per_mm[0], y * per_mm[1]) / crossing_per_mm;
+    let (mut in_heights, mut in_normals, mut inner) = (0.0, 0.0, 0.0);
+    for ((periods, halves, a), (_, _, b)) in long.waves_mut().zip(short.waves_mut()) {
+        if (1.0 / AROUND..AROUND).contains(&away(periods)) {
+            in_heights += halves * a.norm_sqr();
+            in_normals += halves * b.norm_sqr();
+            inner += halves * (*a * b.conj()).re;
         }
     }
-    let steps = values.windows(2).map(|pair| f64::from(pair[1] - pair[0]));
-    let step = steps.min_by(f64::total_cmp)?;
-    let lowest = f64::from(*values.first()?);
-    let whole = |value: &f32| {
-        let steps = (f64::from(*value) - lowest) / step;
-        (steps - steps.round()).abs() < 0.1
-    };
-    (f64::from(range(samples)) < 1.01 * FEW as f64 * step && values.iter().all(whole))
-        .then_some(step)
-}
-
-fn skewness(field: &HeightField) -> f64 {
-    let rms = field.rms_um();
-    let cubes: f64 = field
-        .heights_um()
-        .iter()
-        .map(|h| f64::from(*h).powi(3))
-        .sum();
-    if rms > 0.0 {
-        cubes / field.heights_um().len() as f64 / rms.powi(3)
+    let ratio = if in_heights > 0.0 {
+        (in_normals / in_heights).sqrt()
     } else {
-        0.0
+        1.0
+    };
+    let scale = if is_stated {
+        1.0
+    } else {
+        libm::copysign(ratio, inner)
+    };
+    let apart_db = 20.0 * libm::log10(ratio.max(1e-9));
+    if is_stated && (apart_db.abs() > CONTRADICTED_DB || inner < 0.0) {
+        notes.push(format!(
+            "the normals are those of a relief {ratio:.2} times as deep as stated{}",
+            if inner < 0.0 {
+                ", and turned inside out"
+            } else {
+                ""
+            }
+        ));
     }
+    for ((periods, _, a), (_, _, b)) in long.waves_mut().zip(short.waves_mut()) {
+        let share = 1.0 / (1.0 + away(periods).powi(4));
+        *a = *a * (share * scale) + *b * (1.0 - share);
+    }
+    low.with_heights(long.inverse().into_iter().map(|h| h as f32).collect())
 }

@@ -7,6 +7,10 @@ use tiff::{
     decoder::{Decoder, DecodingResult, Limits},
     tags::Tag,
 };
+use zune_jpeg::{
+    JpegDecoder,
+    zune_core::{bytestream::ZCursor, colorspace::ColorSpace, options::DecoderOptions},
+};
 
 /// Most pixels.
 const MOST_PIXELS: u64 = 8192 * 8192;
@@ -30,10 +34,12 @@ pub struct Raster {
     pub aspect: f64,
     /// True if the file says that its numbers are coded for a screen.
     pub is_coded: bool,
+    /// True for a JPEG, which keeps what eyes see.
+    pub is_lossy: bool,
 }
 
 impl Raster {
-    /// Reads a PNG or a TIFF.
+    /// Reads a PNG, a TIFF or a JPEG.
     ///
     /// # Errors
     /// [`Fault`] for damage, a size beyond 8192 × 8192, palettes, transparency, and colours other than red, green and blue.
@@ -42,8 +48,10 @@ impl Raster {
             png(bytes)
         } else if bytes.starts_with(b"II") || bytes.starts_with(b"MM") {
             tiff(bytes)
+        } else if bytes.starts_with(b"\xff\xd8\xff") {
+            jpeg(bytes)
         } else {
-            Err(Fault::new("it is neither a PNG nor a TIFF", AS_GREY))
+            Err(Fault::new("it is no PNG, TIFF or JPEG", AS_GREY))
         }
     }
 
@@ -134,6 +142,30 @@ fn png(bytes: &[u8]) -> Result<Raster, Fault> {
         largest: Some(largest),
         aspect,
         is_coded,
+        is_lossy: false,
+    })
+}
+
+fn jpeg(bytes: &[u8]) -> Result<Raster, Fault> {
+    let damaged = |error| Fault::new(format!("the JPEG cannot be read: {error}"), AGAIN);
+    let mut decoder = JpegDecoder::new(ZCursor::new(bytes));
+    decoder.decode_headers().map_err(damaged)?;
+    let info = decoder
+        .info()
+        .ok_or_else(|| Fault::new("a JPEG without a size", AGAIN))?;
+    bounded(info.width.into(), info.height.into())?;
+    let channels = if info.components == 1 { 1 } else { 3 };
+    let colors = [ColorSpace::Luma, ColorSpace::RGB][channels / 3];
+    decoder.set_options(DecoderOptions::default().jpeg_set_out_colorspace(colors));
+    let packed = decoder.decode().map_err(damaged)?;
+    Ok(Raster {
+        width: info.width.into(),
+        channels,
+        samples: packed.iter().map(|byte| f32::from(*byte) / 255.0).collect(),
+        largest: Some(255),
+        aspect: 1.0,
+        is_coded: false,
+        is_lossy: true,
     })
 }
 
@@ -190,6 +222,7 @@ fn tiff(bytes: &[u8]) -> Result<Raster, Fault> {
         largest,
         aspect,
         is_coded: false,
+        is_lossy: false,
     })
 }
 

@@ -1,0 +1,92 @@
+//! Grey pictures of heights, and what their numbers tell.
+
+use super::Raster;
+use crate::heights::HeightField;
+use asperity_io::diagnostic::Fault;
+
+/// Differences of red, green and blue up to this are grey, as parts of the range.
+const GREY: f32 = 1.5 / 255.0;
+/// Different numbers up to which a map counts as stored in steps.
+const FEW: usize = 256;
+
+/// The grey of every pixel, if all are grey.
+pub(super) fn grey(raster: &Raster) -> Result<Vec<f32>, Fault> {
+    finite(raster)?;
+    if raster.channels == 1 {
+        return Ok(raster.samples.clone());
+    }
+    let pixels = || raster.samples.chunks_exact(3);
+    if pixels().all(|p| (p[0] - p[1]).abs() <= GREY && (p[1] - p[2]).abs() <= GREY) {
+        return Ok(pixels().map(|p| p[1]).collect());
+    }
+    let what = "a picture in colours, such as a photograph or a base colour, shows no heights";
+    Err(Fault::new(
+        what,
+        "give the height map (displacement) of the material, in grey, or its normal map",
+    ))
+}
+
+pub(super) fn range(samples: &[f32]) -> f32 {
+    let ends = samples.iter().fold((f32::MAX, f32::MIN), |(low, high), h| {
+        (low.min(*h), high.max(*h))
+    });
+    ends.1 - ends.0
+}
+
+/// The step of whole numbers that take few values; `None` for many, and for one.
+pub(super) fn step(samples: &[f32]) -> Option<f64> {
+    let mut values: Vec<f32> = Vec::new();
+    for sample in samples {
+        if let Err(at) = values.binary_search_by(|value| value.total_cmp(sample)) {
+            if values.len() == FEW {
+                return None;
+            }
+            values.insert(at, *sample);
+        }
+    }
+    let steps = values.windows(2).map(|pair| f64::from(pair[1] - pair[0]));
+    let step = steps.min_by(f64::total_cmp)?;
+    let lowest = f64::from(*values.first()?);
+    let whole = |value: &f32| {
+        let steps = (f64::from(*value) - lowest) / step;
+        (steps - steps.round()).abs() < 0.1
+    };
+    (f64::from(range(samples)) < 1.01 * FEW as f64 * step && values.iter().all(whole))
+        .then_some(step)
+}
+
+pub(super) fn skewness(field: &HeightField) -> f64 {
+    let rms = field.rms_um();
+    let cubes: f64 = field
+        .heights_um()
+        .iter()
+        .map(|h| f64::from(*h).powi(3))
+        .sum();
+    if rms > 0.0 {
+        cubes / field.heights_um().len() as f64 / rms.powi(3)
+    } else {
+        0.0
+    }
+}
+
+/// Refuses numbers that are none.
+pub(super) fn finite(raster: &Raster) -> Result<(), Fault> {
+    if let Some(at) = raster.samples.iter().position(|sample| !sample.is_finite()) {
+        let bad = raster
+            .samples
+            .iter()
+            .filter(|sample| !sample.is_finite())
+            .count();
+        let pixel = at / raster.channels;
+        let what = format!(
+            "{bad} of its numbers are no heights (NaN or infinite), the first in row {}, column {}",
+            pixel / raster.width + 1,
+            pixel % raster.width + 1
+        );
+        return Err(Fault::new(
+            what,
+            "fill the holes of the scan, as its software can",
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,216 @@
+//! The pictures of a material in a folder, by their usual names.
+
+use super::Convention;
+use asperity_io::diagnostic::Fault;
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+/// Endings of pictures that are read, the most exact first.
+const ENDINGS: [&str; 5] = ["tif", "tiff", "png", "jpg", "jpeg"];
+/// Parts of names of maps of heights.
+const HEIGHT: [&str; 7] = [
+    "height",
+    "heightmap",
+    "displacement",
+    "disp",
+    "depth",
+    "bump",
+    "parallax",
+];
+const NORMAL: [&str; 5] = ["normal", "normals", "normalmap", "nor", "nrm"];
+const NORMAL_GL: [&str; 3] = ["normalgl", "gl", "opengl"];
+const NORMAL_DX: [&str; 3] = ["normaldx", "dx", "directx"];
+const COLOR: [&str; 9] = [
+    "color",
+    "colour",
+    "basecolor",
+    "basecolour",
+    "albedo",
+    "diffuse",
+    "diff",
+    "col",
+    "base",
+];
+
+/// A material's pictures.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Material {
+    /// Its heights.
+    pub height: Option<PathBuf>,
+    /// Its normals.
+    pub normal: Option<PathBuf>,
+    /// Where green points to in these, by their name.
+    pub convention: Option<Convention>,
+    /// What it looks like.
+    pub color: Option<PathBuf>,
+}
+
+impl Material {
+    /// The pictures of a folder. Where there are several of a kind, the most exact format and then the first by name is
+    /// taken; of normals, those whose name tells the convention.
+    ///
+    /// # Errors
+    /// [`Fault`] for a folder that cannot be read, or that has neither heights nor normals.
+    pub fn of(folder: &Path) -> Result<Self, Fault> {
+        let unread = |error: std::io::Error| {
+            Fault::new(
+                format!("the folder cannot be read: {error}"),
+                "check the path",
+            )
+            .at(folder)
+        };
+        let mut files = Vec::new();
+        for entry in fs::read_dir(folder).map_err(unread)? {
+            files.push(entry.map_err(unread)?.path());
+        }
+        let rank = |file: &PathBuf| {
+            let ending = file.extension()?.to_str()?.to_ascii_lowercase();
+            ENDINGS.iter().position(|known| *known == ending)
+        };
+        files.retain(|file| rank(file).is_some());
+        files.sort_by_key(|file| (rank(file), file.clone()));
+        let named = |names: &[&str]| {
+            let fits = |file: &&PathBuf| words(file).iter().any(|word| names.contains(&&**word));
+            files.iter().find(fits).cloned()
+        };
+        let normals = |convention: &[&str]| {
+            let of = |file: &&PathBuf| {
+                let words = words(file);
+                let has = |names: &[&str]| words.iter().any(|word| names.contains(&&**word));
+                has(convention) && (has(&NORMAL) || has(&convention[..1]))
+            };
+            files.iter().find(of).cloned()
+        };
+        let (normal, convention) = if let Some(file) = normals(&NORMAL_GL) {
+            (Some(file), Some(Convention::Gl))
+        } else if let Some(file) = normals(&NORMAL_DX) {
+            (Some(file), Some(Convention::Dx))
+        } else {
+            (named(&NORMAL), None)
+        };
+        let material = Self {
+            height: named(&HEIGHT),
+            normal,
+            convention,
+            color: named(&COLOR),
+        };
+        if material.height.is_none() && material.normal.is_none() {
+            let seen = match files.len() {
+                0 => "no PNG, TIFF or JPEG".to_owned(),
+                count => format!("none of its {count} pictures is named as heights or normals"),
+            };
+            let remedy = "name them as material libraries do, such as oak_height.png and oak_normal_gl.png, or give one picture";
+            return Err(Fault::new(seen, remedy).at(folder));
+        }
+        Ok(material)
+    }
+
+    /// Every picture that is read.
+    pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        [&self.height, &self.normal, &self.color]
+            .into_iter()
+            .flatten()
+    }
+}
+
+/// The words of a file's name: `Planks01_Base-ColorGL.png` has planks01, base, color, gl, and every two of them joined.
+fn words(file: &Path) -> Vec<String> {
+    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+    let mut words = vec![String::new()];
+    let mut before = ' ';
+    for c in stem.chars() {
+        let starts = !c.is_alphanumeric() || c.is_uppercase() && before.is_lowercase();
+        if starts && words.last().is_some_and(|word| !word.is_empty()) {
+            words.push(String::new());
+        }
+        if let (true, Some(word)) = (c.is_alphanumeric(), words.last_mut()) {
+            word.extend(c.to_lowercase());
+        }
+        before = c;
+    }
+    let joined: Vec<String> = words.windows(2).map(|pair| pair.concat()).collect();
+    words.extend(joined);
+    words
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Claim: the pictures of common libraries are told by their names.
+    #[test]
+    fn pictures_are_told_by_their_names() {
+        let folder = tempfile::tempdir().unwrap();
+        for (files, [height, normal, color], convention) in [
+            (
+                &[
+                    "Wood049_2K-PNG_Color.png",
+                    "Wood049_2K-PNG_Displacement.png",
+                    "Wood049_2K-PNG_NormalDX.png",
+                    "Wood049_2K-PNG_NormalGL.png",
+                    "Wood049_2K-PNG_Roughness.png",
+                ][..],
+                [
+                    Some("Wood049_2K-PNG_Displacement.png"),
+                    Some("Wood049_2K-PNG_NormalGL.png"),
+                    Some("Wood049_2K-PNG_Color.png"),
+                ],
+                Some(Convention::Gl),
+            ),
+            (
+                &[
+                    "brick_wall_diff_1k.jpg",
+                    "brick_wall_disp_1k.png",
+                    "brick_wall_nor_dx_1k.png",
+                    "brick_wall_rough_1k.jpg",
+                    "brick_wall_ao_1k.jpg",
+                ],
+                [
+                    Some("brick_wall_disp_1k.png"),
+                    Some("brick_wall_nor_dx_1k.png"),
+                    Some("brick_wall_diff_1k.jpg"),
+                ],
+                Some(Convention::Dx),
+            ),
+            (
+                &[
+                    "leather-BaseColor.jpg",
+                    "leather-Height.jpg",
+                    "leather-Height.tif",
+                    "leather-Normal.png",
+                    "notes.txt",
+                ],
+                [
+                    Some("leather-Height.tif"),
+                    Some("leather-Normal.png"),
+                    Some("leather-BaseColor.jpg"),
+                ],
+                None,
+            ),
+        ] {
+            let folder = folder.path().join(files[0]);
+            fs::create_dir(&folder).unwrap();
+            for file in files {
+                fs::write(folder.join(file), "").unwrap();
+            }
+            let found = Material::of(&folder).unwrap();
+            let path = |name: Option<&str>| name.map(|name| folder.join(name));
+            assert_eq!(
+                (found.height, found.normal, found.color),
+                (path(height), path(normal), path(color))
+            );
+            assert_eq!(found.convention, convention);
+        }
+        let bare = folder.path().join("bare");
+        fs::create_dir(&bare).unwrap();
+        fs::write(bare.join("photo.jpg"), "").unwrap();
+        assert!(
+            Material::of(&bare)
+                .unwrap_err()
+                .to_string()
+                .contains("none of its 1 pictures")
+        );
+    }
+}
