@@ -43,6 +43,7 @@ const KIND: SourceKind = SourceKind {
         let period_mm = period_mm.ok_or_else(|| NoPeriod(stated.text.to_owned()))?;
         Ok(Arc::new(Grating(period_mm)))
     },
+    options: &[],
     refuses: &["texture", "seed"],
     fidelity: Fidelity::Full,
     preview: false,
@@ -137,11 +138,18 @@ fn open() -> Result<PromptCompiler, Vec<Box<dyn Diagnostic>>> {
 
 /// Builds a manifest that may name gratings.
 fn built(text: &str) -> Result<Vec<u8>, String> {
-    let told = |failures: Vec<Box<dyn Diagnostic>>| failures[0].to_string();
     let registry = Registry::default().with(KIND);
-    let file = Path::new("gratings.toml");
-    let manifest = Manifest::within(file, text, Reach::Anywhere, &registry)
-        .map_err(|errors| errors[0].to_string())?;
+    built_with(Path::new("gratings.toml"), text, &registry)
+}
+
+/// Builds a manifest that may name sources of a registry.
+pub(crate) fn built_with(file: &Path, text: &str, registry: &Registry) -> Result<Vec<u8>, String> {
+    let told = |failures: Vec<Box<dyn Diagnostic>>| {
+        let first = &failures[0];
+        format!("{first}; {}", first.remedy())
+    };
+    let manifest = Manifest::within(file, text, Reach::Anywhere, registry)
+        .map_err(|errors| format!("{}; {}", errors[0], errors[0].remedy))?;
     let request = BuildRequest::default();
     let build = Build::new(&manifest, &request).map_err(told)?;
     let built = build.run(&open, &|| ()).map_err(told)?;

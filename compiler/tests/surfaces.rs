@@ -1,17 +1,20 @@
 //! Maps of heights whose vibration is known: what the compiled texture renders, against the closed form.
 
-use crate::prompts::PROMPTS;
+use crate::{own_source::built_with, prompts::PROMPTS};
 use asperity::{
     driver::{self, Compiled},
-    model::{GridVertex, VertexKind, mixture::Field},
+    emit::raise::raise,
+    model::{GridVertex, TextureModel, VertexKind, attributes, mixture::Field},
     passes::reduce::Fidelity,
     pipeline::Request,
     signal::spectrum::ArmaModel,
     sources::{
-        Tools,
+        Registry, Tools,
         surface::{Options, Size, Surface, Tip},
     },
+    views::preview,
 };
+use asperity_formats::{Asset, Library};
 use asperity_surface::{
     contact::disc_power,
     stylus::{Stylus, Support},
@@ -142,5 +145,92 @@ fn gratings_are_as_loud_as_theory_has_them() {
                 check(speed_mm_s, force_n, 1.5);
             }
         }
+    }
+}
+
+/// The directory of a test, with a map, and a material whose heights it shows and whose base colour is red.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let wave = |x: f64, y: f64| 0.5 + 0.3 * (x * 0.7).sin() + 0.2 * (y * 0.02 + x * 0.1).sin();
+    let map = png(256, wave);
+    std::fs::write(folder.path().join("grain.png"), &map).unwrap();
+    let material = folder.path().join("oak");
+    std::fs::create_dir(&material).unwrap();
+    std::fs::write(material.join("oak_height.png"), &map).unwrap();
+    let mut red = Vec::new();
+    let mut encoder = png::Encoder::new(&mut red, 2, 2);
+    encoder.set_color(png::ColorType::Rgb);
+    let mut writer = encoder.write_header().unwrap();
+    writer.write_image_data(&[200, 20, 20].repeat(4)).unwrap();
+    writer.finish().unwrap();
+    std::fs::write(material.join("oak_color.png"), red).unwrap();
+    folder
+}
+
+/// Claim: a manifest takes maps and folders of materials, whose words say hardness and friction and whose colour is the preview;
+/// keys that belong to surfaces are refused elsewhere, and what is missing is named.
+#[test]
+fn a_manifest_takes_surfaces() {
+    let folder = folder();
+    let build = |text: &str| {
+        let file = folder.path().join("list.toml");
+        built_with(&file, text, &Registry::default())
+    };
+    let library = build(
+        "[defaults]\nwidth_mm = 50\ndepth_mm = 0.05\npreview = 64\n\
+         [[texture]]\nname = \"hard\"\nsurface = \"grain.png\"\n\
+         [[texture]]\nname = \"soft\"\nsurface = \"oak\"\nlike = \"silicone rubber\"\n\
+         [[texture]]\nname = \"words\"\nprompt = \"silicone rubber\"\n",
+    )
+    .unwrap();
+    let library = Library::parse(&library).unwrap();
+    let texture = |name: &str| {
+        let place = library.index().find(name).unwrap();
+        let asset = Asset::parse(library.bytes(place).unwrap()).unwrap();
+        (raise(&asset), asset.preview_png().unwrap().to_vec())
+    };
+    let [(hard, _), (soft, red), (words, _)] = ["hard", "soft", "words"].map(texture);
+    assert!((soft.friction.mu - words.friction.mu).abs() < 1e-3);
+    assert!((hard.friction.mu - words.friction.mu).abs() > 0.05);
+    let rough = |texture: &TextureModel| attributes::of(texture).rough_db.unwrap();
+    assert!(
+        rough(&soft) < rough(&hard) - 3.0,
+        "the softer contact averages more"
+    );
+    assert!(hard.direction.is_some() && soft.direction.is_some());
+    let stored = preview::stored(&red).unwrap();
+    assert!(stored.rgb[0] > 150 && stored.rgb[1] < 60);
+    for (text, words) in [
+        (
+            "name = \"a\"\nsurface = \"grain.png\"",
+            "no picture says its width",
+        ),
+        (
+            "name = \"a\"\nsurface = \"none.png\"\nwidth_mm = 9",
+            "none.png",
+        ),
+        (
+            "name = \"a\"\nsurface = \"grain.png\"\nwidth_mm = \"wide\"",
+            "a number of mm",
+        ),
+        (
+            "name = \"a\"\nsurface = \"grain.png\"\nwidth_mm = 9\ntip = \"pin\"",
+            "fingertip",
+        ),
+        (
+            "name = \"a\"\nsurface = \"grain.png\"\nwidth_mm = 900",
+            "too coarse",
+        ),
+        (
+            "name = \"a\"\nprompt = \"oak\"\nwidth_mm = 9",
+            "cannot be combined with prompt",
+        ),
+        (
+            "name = \"a\"\nsurface = \"grain.png\"\nwidth_mm = 9\ndepht_mm = 1",
+            "did you mean \"depth_mm\"",
+        ),
+    ] {
+        let message = build(&format!("[[texture]]\n{text}\n")).unwrap_err();
+        assert!(message.contains(words), "{words}: {message}");
     }
 }

@@ -1,8 +1,11 @@
 //! Arguments of the commands that check and import what others measured or modelled.
 
 use super::{ImportEffects, Inference, PreviewOptions, ReportOptions};
-use asperity::{passes::reduce::Fidelity, sources::surface::Convention};
-use clap::{Args, Subcommand, ValueEnum};
+use asperity::{
+    passes::reduce::Fidelity,
+    sources::surface::{Convention, Tip},
+};
+use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -91,24 +94,13 @@ pub(crate) struct ImportRecording {
     pub(crate) reporting: ReportOptions,
 }
 
-/// The tip that strokes a surface.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum TipChoice {
-    /// A steel ball of 3.2 mm
-    Stylus,
-    /// A fingertip
-    Fingertip,
-    /// A steel needle of 0.2 mm
-    Needle,
-}
-
 #[derive(Debug, Args)]
 #[command(
     after_help = "The tip rolls over the heights, and its contact averages them; what tool and hand \
 make of that at many speeds and forces becomes the texture, with the axis of ribs or a grain. \
 Heights are greyscale, white high; 16 bits keep fine relief. Of a folder, heights, normals and the \
-base colour, which becomes the preview, are told by their usual names; long waves are those of the \
-heights, short ones those of the normals. What a map cannot say, \
+base colour, which becomes the preview, are recognised by their usual names; long waves follow the \
+heights, short ones the normals. What a map cannot say, \
 hardness, taps and friction, comes from --like, or else from materials that vibrate alike. \
 docs/surfaces.md explains the method and its limits.
 
@@ -116,12 +108,13 @@ Examples:
   asperity import surface oak.png -o oak.asp --width-mm 100 --depth-mm 0.4 --like 'planed oak'
   asperity import surface scan.tif -o scan.asp --width-mm 12.5 --depth-mm 0.08 --json
   asperity import surface Wood049_2K-PNG/ -o wood.asp --width-mm 300 --like wood
+  asperity import surface materials/ -o materials.aspl --width-mm 300
   asperity import surface cracks.png -o cracks.asp --width-mm 50 --depth-mm -0.3"
 )]
 pub(crate) struct ImportSurface {
     /// A height map or a normal map (.png, .tif, .jpg), or a folder with the pictures of a material
     pub(crate) path: PathBuf,
-    /// The asset to write; `-` is standard output
+    /// The asset to write; `-` is standard output. A library (.aspl), or a folder, takes every map and material of a folder
     #[arg(short, long)]
     pub(crate) output: PathBuf,
     /// Width of the surface that the map shows, mm
@@ -138,8 +131,8 @@ pub(crate) struct ImportSurface {
     #[arg(long, value_name = "PROMPT")]
     pub(crate) like: Option<String>,
     /// The tip that strokes it
-    #[arg(long, value_enum, default_value_t = TipChoice::Stylus)]
-    pub(crate) tip: TipChoice,
+    #[arg(long, default_value = "stylus", value_name = "stylus|fingertip|needle")]
+    pub(crate) tip: Tip,
     /// Name of the texture [default: that of the file]
     #[arg(long)]
     pub(crate) name: Option<String>,

@@ -2,9 +2,10 @@
 
 use super::{
     inference,
+    many_textures::Target,
     one_texture::{Job, RequestedOutputs, request},
 };
-use crate::cli::{ImportEffects, ImportModel, ImportRecording, ImportSurface, TipChoice};
+use crate::cli::{ImportEffects, ImportModel, ImportRecording, ImportSurface};
 use asperity::{
     library::model_files,
     pipeline::Request,
@@ -14,7 +15,7 @@ use asperity::{
         model_file::ModelFile,
         prompt,
         recording::RecordingFolder,
-        surface::{Options as SurfaceOptions, Size, Surface, Tip},
+        surface::{self, Options as SurfaceOptions, Size, Surface},
     },
 };
 use asperity_console::Console;
@@ -83,43 +84,48 @@ pub(crate) fn surface(args: &ImportSurface, console: Console) -> Result<(), Fail
     if let Some(like) = &args.like {
         prompt::check(like).map_err(one)?;
     }
-    let source = Surface {
-        path: args.path.clone(),
+    let surface = |path| Surface {
+        path,
         options: SurfaceOptions {
             size: Size {
                 width_mm: args.width_mm,
                 depth_mm: args.depth_mm,
             },
             like: args.like.clone(),
+            tip: args.tip,
             convention: args.normal,
-            tip: match args.tip {
-                TipChoice::Stylus => Tip::STYLUS,
-                TipChoice::Fingertip => Tip::FINGERTIP,
-                TipChoice::Needle => Tip::NEEDLE,
-            },
         },
     };
+    let extension = args.output.extension().unwrap_or_default();
+    let many = extension.eq_ignore_ascii_case("aspl") || args.output.is_dir();
+    let sources: Vec<Surface> = match many {
+        true => surface::all(&args.path).map_err(one)?,
+        false => vec![args.path.clone()],
+    }
+    .into_iter()
+    .map(surface)
+    .collect();
     let setup = args.inference.setup();
-    let mut inputs = source.inputs();
+    let mut inputs: Vec<_> = sources.iter().flat_map(Source::inputs).collect();
     inputs.extend(setup.files());
+    let request = Request {
+        name: args.name.clone().filter(|_| !many),
+        ..request(args.fidelity, args.rate, &args.preview)
+    };
+    if many {
+        let emit_model = args.emit_model.as_deref();
+        let target = Target::open(&args.path, &args.output, emit_model, sources.len(), &inputs)?;
+        let prompt_compiler = setup.prompt_compiler()?;
+        let tools = Tools::of(&prompt_compiler);
+        let context = (&inputs[..], args.reporting.timings, console);
+        return target.import(&sources, &request, &tools, |_| (), context);
+    }
     let requested = RequestedOutputs {
         emit_model: args.emit_model.as_deref(),
         report: args.report.as_deref(),
         ..RequestedOutputs::of(&args.output, args.reporting)
     };
-    let request = Request {
-        name: args.name.clone(),
-        ..request(args.fidelity, args.rate, &args.preview)
-    };
     let job = Job::open(requested, &inputs, console)?;
-    if args.like.is_some() {
-        let prompt_compiler = setup.prompt_compiler()?;
-        return job.run(&source, &request, &Tools::of(&prompt_compiler));
-    }
-    let model = inference::completer(args.inference.model.as_deref())?;
-    let tools = Tools {
-        model: Some(&model),
-        ..Tools::default()
-    };
-    job.run(&source, &request, &tools)
+    let prompt_compiler = setup.prompt_compiler()?;
+    job.run(&sources[0], &request, &Tools::of(&prompt_compiler))
 }

@@ -14,6 +14,7 @@ mod input;
 mod inspect;
 mod library;
 mod listen;
+mod many_textures;
 mod mixing;
 mod one_texture;
 mod plot;

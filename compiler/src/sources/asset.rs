@@ -25,6 +25,7 @@ pub const KIND: SourceKind = SourceKind {
             texture: stated.texture.map(str::to_owned),
         }))
     },
+    options: &[],
     refuses: &["seed", "fidelity", "rate", "preview", "loudness", "edit"],
     fidelity: Fidelity::Full,
     preview: false,

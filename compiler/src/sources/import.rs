@@ -22,6 +22,7 @@ pub const KIND: SourceKind = SourceKind {
     key: "import",
     operand: Operand::File,
     open,
+    options: &[],
     refuses: &["texture", "seed", "edit"],
     fidelity: Fidelity::Full,
     preview: false,

@@ -14,6 +14,8 @@ pub struct SourceKind {
     pub operand: Operand,
     /// The source of a value.
     pub open: fn(&SourceEntry<'_>) -> Result<Arc<dyn ManifestSource>, Failure>,
+    /// Keys of options that only such sources have.
+    pub options: &'static [&'static str],
     /// Keys of a texture that do not go with it: `texture`, `seed`, `edit` and other options.
     pub refuses: &'static [&'static str],
     /// Default fidelity.
@@ -31,6 +33,8 @@ pub enum Operand {
     File,
     /// The path of a folder that is there.
     Folder,
+    /// The path of a file or a folder that is there.
+    Path,
 }
 
 /// Entry of a source in a manifest.
@@ -42,6 +46,8 @@ pub struct SourceEntry<'a> {
     pub path: &'a Path,
     /// The texture of a library.
     pub texture: Option<&'a str>,
+    /// Those of its own options that are stated, as texts.
+    pub options: &'a [(&'static str, String)],
     /// 0 for what a prompt means, others for variations of it.
     pub seed: u64,
 }

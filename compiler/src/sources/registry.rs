@@ -1,6 +1,6 @@
 //! The sources that a manifest can name, as a value: a program may add its own.
 
-use super::{asset, import, kind::SourceKind, prompt, recording};
+use super::{asset, import, kind::SourceKind, prompt, recording, surface};
 
 /// The kinds of sources that manifests may name.
 #[derive(Debug, Clone)]
@@ -13,6 +13,7 @@ impl Default for Registry {
             prompt::KIND,
             import::KIND,
             recording::KIND,
+            surface::KIND,
             asset::KIND,
         ])
     }
@@ -31,6 +32,11 @@ impl Registry {
     #[must_use]
     pub fn get(&self, key: &str) -> Option<&SourceKind> {
         self.0.iter().find(|kind| kind.key == key)
+    }
+
+    /// All keys of options that only some sources have.
+    pub fn options(&self) -> impl Iterator<Item = &'static str> + '_ {
+        self.0.iter().flat_map(|kind| kind.options).copied()
     }
 
     /// All keys.

@@ -1,7 +1,7 @@
 //! A tip on a surface: its contact averages heights, and it rolls over the crests of what is left.
 
 use crate::{heights::HeightField, plane::Plane, stylus::Support};
-use std::f64::consts::TAU;
+use std::{f64::consts::TAU, str::FromStr};
 
 /// Contact of a real tip over Hertz's: with it, measured profiles vibrate in the median within 2 dB as strongly as measured
 /// strokes over materials of their names do (`training/corpus/tests/measured.rs`).
@@ -10,7 +10,7 @@ const CONTACT_FACTOR: f64 = 2.0;
 /// `device-sim/tests/dragged_tip.rs`, which an eighth to a half fit alike.
 const SINKS: f64 = 0.25;
 
-/// A round tip.
+/// A round tip: `stylus`, `fingertip` or `needle` as a text.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tip {
     /// Its radius, mm.
@@ -75,6 +75,19 @@ impl Tip {
         let sag =
             |n: i32| (1e3 * (f64::from(n) * pitch_mm).powi(2) / (2.0 * self.radius_mm)) as f32;
         (1..).map(sag).take_while(|sag| *sag < range_um).collect()
+    }
+}
+
+impl FromStr for Tip {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "stylus" => Ok(Self::STYLUS),
+            "fingertip" => Ok(Self::FINGERTIP),
+            "needle" => Ok(Self::NEEDLE),
+            _ => Err("`stylus`, `fingertip` or `needle`".into()),
+        }
     }
 }
 

@@ -340,7 +340,7 @@ fn normals(green_down: f64) -> Raster {
 }
 
 /// Claim: heights, their normals in either convention, and both together vibrate within 1 dB in every direction, and the
-/// convention is told by the slopes.
+/// convention follows from the slopes.
 #[test]
 fn heights_and_normals_agree() {
     let heights = raster(1, |x, y| vec![0.5 + known(x, y)[0] / 250.0]);

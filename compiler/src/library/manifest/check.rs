@@ -30,7 +30,10 @@ const SETUP: [&str; 3] = ["model", "text_encoder", "backend"];
 /// Returns true if a texture has such a key, also in one of its tables.
 pub(super) fn is_key(key: &str, registry: &Registry) -> bool {
     let own = key.split('.').next().unwrap_or(key);
-    OWN.contains(&own) || is_origin(own, registry) || OPTIONS.contains(&own)
+    OWN.contains(&own)
+        || is_origin(own, registry)
+        || OPTIONS.contains(&own)
+        || registry.options().any(|option| option == own)
 }
 
 /// A key as it is written here: those of spreadsheets begin with a capital.
@@ -90,7 +93,8 @@ impl Checker<'_> {
                 }
             } else {
                 let setup: &[&str] = if first { &SETUP } else { &[] };
-                self.unknown(field, "defaults.", &[&OPTIONS, setup].concat());
+                let options: Vec<_> = self.registry.options().collect();
+                self.unknown(field, "defaults.", &[&OPTIONS, setup, &options].concat());
             }
         }
         (stated, setup)
@@ -118,7 +122,8 @@ impl Checker<'_> {
                 // A column that is misspelt is so in every row.
                 key if row.untyped && self.columns.iter().any(|known| known == key) => {}
                 key => {
-                    let origins = self.origins();
+                    let mut origins = self.origins();
+                    origins.extend(self.registry.options());
                     self.unknown(field, "", &[&OWN[..], &origins, &OPTIONS].concat());
                     if row.untyped {
                         self.columns.push(key.to_owned());
@@ -128,7 +133,7 @@ impl Checker<'_> {
         }
         let all = stated.within(defaults);
         let origin = match sources[..] {
-            [source] => self.origin(source, row, all.seed),
+            [source] => self.origin(source, row, &all),
             // It is there, and reported as a key that is misspelt.
             [] if self.has_misspelt_origin(row) => None,
             [] => {
@@ -232,7 +237,7 @@ impl Checker<'_> {
         kind: SourceKind,
         field: &Field,
         row: &ManifestRow,
-        seed: Option<u64>,
+        all: &PartialOptions,
     ) -> Option<Origin<Reference>> {
         let key = kind.key;
         let text = self.text(field, key)?;
@@ -246,6 +251,10 @@ impl Checker<'_> {
         let path = match kind.operand {
             Operand::Text => PathBuf::new(),
             Operand::Folder => self.path(field, key, text, true)?,
+            Operand::Path => {
+                let is_folder = self.folder.join(text).is_dir();
+                self.path(field, key, text, is_folder)?
+            }
             // Nothing is asked about a path that the manifest may not name.
             Operand::File if !self.reaches(field, key, text, false) => return None,
             Operand::File => match text.rsplit_once('#') {
@@ -261,11 +270,18 @@ impl Checker<'_> {
                 _ => self.path(field, key, text, false)?,
             },
         };
+        let stated = |key: &&'static str| {
+            let field = all.own.iter().find(|field| field.key == **key)?;
+            Some((*key, field.value.shown().trim().to_owned()))
+        };
+        let own: Vec<_> = kind.options.iter().filter_map(stated).collect();
         let entry = sources::SourceEntry {
             text,
             path: &path,
             texture,
-            seed: seed
+            options: &own,
+            seed: all
+                .seed
                 .filter(|_| !kind.refuses.contains(&"seed"))
                 .unwrap_or(0),
         };
@@ -283,10 +299,10 @@ impl Checker<'_> {
         &mut self,
         field: &Field,
         row: &ManifestRow,
-        seed: Option<u64>,
+        all: &PartialOptions,
     ) -> Option<Origin<Reference>> {
         if let Some(kind) = self.registry.get(&field.key) {
-            return self.source(*kind, field, row, seed);
+            return self.source(*kind, field, row, all);
         }
         match field.key.as_str() {
             "of" => Some(Origin::Of(Reference {
@@ -400,8 +416,12 @@ impl Checker<'_> {
     /// Refuses keys of a row that its source does not take.
     fn placed(&mut self, row: &ManifestRow, origin: &Origin<Reference>) {
         let SourceDefaults { key, refuses, .. } = self.source_defaults(origin);
+        let own = self.registry.get(key).map_or(&[][..], |kind| kind.options);
+        let strange = |field: &str| {
+            !own.contains(&field) && self.registry.options().any(|option| option == field)
+        };
         for field in &row.fields {
-            if refuses.contains(&field.key.as_str()) {
+            if refuses.contains(&field.key.as_str()) || strange(&field.key) {
                 self.misplaced(field.line, &field.key, key);
             }
         }

@@ -39,6 +39,8 @@ pub(super) struct PartialOptions {
     pub(super) preview_px: Option<u32>,
     pub(super) loudness_db: Option<f64>,
     pub(super) edit: Option<Edit>,
+    /// Options that only some sources have.
+    pub(super) own: Vec<Field>,
 }
 
 impl PartialOptions {
@@ -51,6 +53,11 @@ impl PartialOptions {
             preview_px: self.preview_px.or(outer.preview_px),
             loudness_db: self.loudness_db.or(outer.loudness_db),
             edit: self.edit.clone().or_else(|| outer.edit.clone()),
+            own: {
+                let said = |field: &&Field| !self.own.iter().any(|own| own.key == field.key);
+                let outer = outer.own.iter().filter(said);
+                self.own.iter().chain(outer).cloned().collect()
+            },
         }
     }
 }
@@ -208,6 +215,7 @@ impl Checker<'_> {
                 stated.loudness_db = self.number(field, key, LOUDNESS_DB, untyped);
             }
             "edit" => stated.edit = self.edit(field, untyped),
+            _ if self.registry.options().any(|own| own == key) => stated.own.push(field.clone()),
             _ => return false,
         }
         true

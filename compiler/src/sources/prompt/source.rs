@@ -42,6 +42,7 @@ pub const KIND: SourceKind = SourceKind {
             picture: None,
         }))
     },
+    options: &[],
     refuses: &["texture"],
     fidelity: Fidelity::Auto,
     preview: true,

@@ -39,6 +39,7 @@ pub const KIND: SourceKind = SourceKind {
             force: false,
         }))
     },
+    options: &[],
     refuses: &["texture", "seed", "edit"],
     fidelity: Fidelity::Full,
     preview: false,

@@ -5,13 +5,15 @@
 //! or else from the learned model. `docs/surfaces.md` describes method and limits.
 
 mod grid;
+mod options;
 mod picture;
 mod report;
 mod source;
 
 pub use asperity_surface::{
     contact::Tip,
-    map::{Convention, Size},
+    map::{Convention, Size, all},
 };
 pub use grid::Survey;
-pub use source::{Options, Surface, Surveyed};
+pub use options::Options;
+pub use source::{KIND, Surface, Surveyed};

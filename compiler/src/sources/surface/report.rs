@@ -16,14 +16,13 @@ impl Surveyed {
 
 /// The report for machines: the figures of every texture, and `surface`.
 pub(super) fn json(found: &Surveyed, compiled: &Compiled) -> Value {
-    let field = &found.map.field;
     let survey = &found.survey;
     let mut report = compiled.figures();
     report["surface"] = json!({
-        "pixels": found.map.pixels,
-        "points": [field.width(), field.height()],
-        "pitch_mm": field.pitch_mm(),
-        "rms_um": field.rms_um(),
+        "pixels": found.pixels,
+        "points": found.points,
+        "pitch_mm": found.pitch_mm,
+        "rms_um": found.rms_um,
         "guessed_depth_mm": found.guessed_mm,
         "modulus_mpa": found.modulus_mpa,
         "like": found.like,
@@ -33,23 +32,22 @@ pub(super) fn json(found: &Surveyed, compiled: &Compiled) -> Value {
         "direction": survey.direction,
         "measured_to_per_mm": survey.measured_to_per_mm,
         "thrown_mm_s": survey.thrown_mm_s,
-        "notes": found.map.notes,
+        "notes": found.notes,
     });
     report
 }
 
 /// A few lines for people.
 pub(super) fn text(found: &Surveyed, compiled: &Compiled) -> String {
-    let field = &found.map.field;
     let survey = &found.survey;
-    let [x, y] = field.pitch_mm();
+    let [x, y] = found.pitch_mm;
     let mut lines = vec![
         compiled.line(),
         format!(
             "map: {:.1} × {:.1} mm, points {x:.3} mm apart, heights {:.2} µm RMS",
-            x * field.width() as f64,
-            y * field.height() as f64,
-            field.rms_um()
+            x * found.points[0] as f64,
+            y * found.points[1] as f64,
+            found.rms_um
         ),
         format!(
             "strokes of 100 mm/s under 1 N: {:.1} dB re 1 m/s², lines no narrower than {LEAST_SPREAD_OCTAVES} octaves",
@@ -103,9 +101,9 @@ pub(super) fn notes(found: &Surveyed) -> String {
 
 /// What the user should know.
 pub(super) fn warnings(found: &Surveyed) -> Vec<String> {
-    let mut warnings = found.map.notes.clone();
+    let mut warnings = found.notes.clone();
     if let Some(depth_mm) = found.guessed_mm {
-        warnings.push(match found.map.field.rms_um() > 0.0 {
+        warnings.push(match found.rms_um > 0.0 {
             true => format!(
                 "no depth was stated, so heights are a guess: {depth_mm:.4} mm from black to white vibrate as strongly as {}; state --depth-mm",
                 found.like.as_ref().map_or_else(|| "most things".to_owned(), |like| format!("\"{like}\""))

@@ -1,16 +1,18 @@
 //! A map of heights as a source.
 
 use super::{
+    Options,
     grid::{Stroked, Survey},
-    picture, report,
+    options, picture, report,
 };
 use crate::{
     compiled::{Compiled, ErrorReference},
     learned::{contact, modulus},
     name,
+    passes::reduce::Fidelity,
     pipeline::{Pass, Pipeline, Request, Ringing},
     sources::{
-        Findings, ManifestSource, Source, SourceOutput, Tools,
+        Findings, ManifestSource, Operand, Source, SourceKind, SourceOutput, Tools,
         key::Parts,
         prompt::Prompt,
         recording::{Nearest, complete},
@@ -23,7 +25,7 @@ use asperity_io::{
 use asperity_surface::{
     contact::{Contact, Tip},
     heights::HeightField,
-    map::{Convention, HeightMap, Material, Pictures, Raster, Size},
+    map::{Convention, HeightMap, Material, Pictures, Raster},
 };
 use asperity_texture::model::{
     Friction, FrictionAnchor, Provenance, TextureModel, Wall, attributes, defaults,
@@ -40,18 +42,55 @@ const STEPS: usize = 3;
 /// Ranges of heights that may be guessed, mm.
 const RANGES_MM: (f64, f64) = (1e-6, 10.0);
 
-/// What a map does not say of its surface.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Options {
-    /// Its size.
-    pub size: Size,
-    /// Words for its material, which say how hard and slippery it is and how it sounds when it is tapped.
-    pub like: Option<String>,
-    /// The tip that strokes it.
-    pub tip: Tip,
-    /// Where green points to in its normals; guessed if `None`.
-    pub convention: Option<Convention>,
+/// Maps of a surface.
+#[derive(Debug, Clone)]
+pub struct Surface {
+    /// A height map or a normal map, or a folder with the pictures of a material.
+    pub path: PathBuf,
+    /// The rest.
+    pub options: Options,
 }
+
+/// Findings of a surface.
+#[derive(Debug)]
+pub struct Surveyed {
+    /// Pixels of the pictures.
+    pub pixels: [usize; 2],
+    /// Points of the field that was stroked.
+    pub points: [usize; 2],
+    /// Their distance, mm.
+    pub pitch_mm: [f64; 2],
+    /// Root mean square of the heights, µm.
+    pub rms_um: f64,
+    /// Findings in the pictures.
+    pub notes: Vec<String>,
+    /// What strokes over it meet.
+    pub survey: Survey,
+    /// Height of white above black, mm, that was taken where none was stated.
+    pub guessed_mm: Option<f64>,
+    /// The modulus that was taken, MPa.
+    pub modulus_mpa: f64,
+    /// The words that said it.
+    pub like: Option<String>,
+    /// The materials that complete it where no words do, the nearest first.
+    pub nearest: Vec<Nearest>,
+}
+
+/// `surface` of a manifest.
+pub const KIND: SourceKind = SourceKind {
+    key: "surface",
+    operand: Operand::Path,
+    open: |stated| {
+        Ok(Arc::new(Surface {
+            path: stated.path.to_owned(),
+            options: Options::stated(stated.options)?,
+        }))
+    },
+    options: &options::KEYS,
+    refuses: &["texture", "seed", "edit"],
+    fidelity: Fidelity::Auto,
+    preview: true,
+};
 
 impl Surface {
     /// The pictures of the path.
@@ -99,32 +138,6 @@ impl Surface {
         })?;
         Ok((heights, color, hasher.finalize()))
     }
-}
-
-/// Maps of a surface.
-#[derive(Debug, Clone)]
-pub struct Surface {
-    /// A height map or a normal map, or a folder with the pictures of a material.
-    pub path: PathBuf,
-    /// The rest.
-    pub options: Options,
-}
-
-/// Findings of a surface.
-#[derive(Debug)]
-pub struct Surveyed {
-    /// The map, with the depth that was taken.
-    pub map: HeightMap,
-    /// What strokes over it meet.
-    pub survey: Survey,
-    /// Height of white above black, mm, that was taken where none was stated.
-    pub guessed_mm: Option<f64>,
-    /// The modulus that was taken, MPa.
-    pub modulus_mpa: f64,
-    /// The words that said it.
-    pub like: Option<String>,
-    /// The materials that complete it where no words do, the nearest first.
-    pub nearest: Vec<Nearest>,
 }
 
 impl Source for Surface {
@@ -236,8 +249,17 @@ impl Source for Surface {
             contact::set(&mut texture, completed.contact);
             nearest = completed.nearest;
         }
+        let field = &map.field;
+        let picture = request.preview_px.map(|size_px| match &color {
+            Some(color) => picture::of_color(color, size_px),
+            None => picture::of_heights(field, size_px),
+        });
         let surveyed = Surveyed {
-            map,
+            pixels: map.pixels,
+            points: [field.width(), field.height()],
+            pitch_mm: field.pitch_mm(),
+            rms_um: field.rms_um(),
+            notes: map.notes,
             survey,
             guessed_mm,
             modulus_mpa,
@@ -245,10 +267,6 @@ impl Source for Surface {
             nearest,
         };
         texture.provenance.notes = report::notes(&surveyed);
-        let picture = request.preview_px.map(|size_px| match &color {
-            Some(color) => picture::of_color(color, size_px),
-            None => picture::of_heights(&surveyed.map.field, size_px),
-        });
         let mut warnings = report::warnings(&surveyed);
         warnings.extend(words.iter().flat_map(|words| words.warnings.clone()));
         Ok(SourceOutput {

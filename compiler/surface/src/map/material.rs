@@ -49,26 +49,12 @@ pub struct Material {
 
 impl Material {
     /// The pictures of a folder. Where there are several of a kind, the most exact format and then the first by name is
-    /// taken; of normals, those whose name tells the convention.
+    /// taken; of normals, those whose name shows the convention.
     ///
     /// # Errors
     /// [`Fault`] for a folder that cannot be read, or that has neither heights nor normals.
     pub fn of(folder: &Path) -> Result<Self, Fault> {
-        let unread = |error: std::io::Error| {
-            Fault::new(
-                format!("the folder cannot be read: {error}"),
-                "check the path",
-            )
-            .at(folder)
-        };
-        let mut files = Vec::new();
-        for entry in fs::read_dir(folder).map_err(unread)? {
-            files.push(entry.map_err(unread)?.path());
-        }
-        let rank = |file: &PathBuf| {
-            let ending = file.extension()?.to_str()?.to_ascii_lowercase();
-            ENDINGS.iter().position(|known| *known == ending)
-        };
+        let mut files = entries(folder)?;
         files.retain(|file| rank(file).is_some());
         files.sort_by_key(|file| (rank(file), file.clone()));
         let named = |names: &[&str]| {
@@ -115,6 +101,58 @@ impl Material {
     }
 }
 
+/// The maps and the folders of materials in a folder, by name; a folder without folders, whose names show more than heights,
+/// is one material.
+///
+/// # Errors
+/// [`Fault`] for a folder that cannot be read, or that has neither.
+pub fn all(folder: &Path) -> Result<Vec<PathBuf>, Fault> {
+    if !folder.is_dir() {
+        return Ok(vec![folder.to_owned()]);
+    }
+    let mut paths = entries(folder)?;
+    paths.retain(|path| path.is_dir() || rank(path).is_some());
+    let is_material = |found: &Material| found.normal.is_some() || found.color.is_some();
+    if !paths.iter().any(|path| path.is_dir())
+        && Material::of(folder).is_ok_and(|m| is_material(&m))
+    {
+        return Ok(vec![folder.to_owned()]);
+    }
+    if paths.is_empty() {
+        let remedy =
+            "give a folder of height maps, or of folders with the pictures of a material each";
+        return Err(Fault::new("no PNG, TIFF or JPEG, and no folder", remedy).at(folder));
+    }
+    paths.sort();
+    Ok(paths)
+}
+
+fn entries(folder: &Path) -> Result<Vec<PathBuf>, Fault> {
+    let unread = |error: std::io::Error| {
+        Fault::new(
+            format!("the folder cannot be read: {error}"),
+            "check the path",
+        )
+        .at(folder)
+    };
+    let hidden = |path: &PathBuf| {
+        path.file_name()
+            .is_some_and(|name| name.to_string_lossy().starts_with('.'))
+    };
+    let mut paths = Vec::new();
+    for entry in fs::read_dir(folder).map_err(unread)? {
+        paths.push(entry.map_err(unread)?.path());
+    }
+    paths.retain(|path| !hidden(path));
+    Ok(paths)
+}
+
+/// Place of a picture's format among those that are read.
+fn rank(file: &Path) -> Option<usize> {
+    let ending = file.extension()?.to_str()?.to_ascii_lowercase();
+    ENDINGS.iter().position(|known| *known == ending)
+}
+
 /// The words of a file's name: `Planks01_Base-ColorGL.png` has planks01, base, color, gl, and every two of them joined.
 fn words(file: &Path) -> Vec<String> {
     let stem = file.file_stem().unwrap_or_default().to_string_lossy();
@@ -139,7 +177,7 @@ fn words(file: &Path) -> Vec<String> {
 mod tests {
     use super::*;
 
-    /// Claim: the pictures of common libraries are told by their names.
+    /// Claim: the pictures of common libraries are recognised by name.
     #[test]
     fn pictures_are_told_by_their_names() {
         let folder = tempfile::tempdir().unwrap();

@@ -5,7 +5,7 @@ mod material;
 mod normal_map;
 mod raster;
 
-pub use material::Material;
+pub use material::{Material, all};
 pub use normal_map::Convention;
 pub use raster::Raster;
 
