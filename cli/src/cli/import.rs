@@ -146,6 +146,9 @@ pub(crate) struct ImportSurface {
     pub(crate) inference: Inference,
     #[command(flatten)]
     pub(crate) preview: PreviewOptions,
+    /// Plot the map, its axis and what strokes meet on one sheet
+    #[arg(long, value_name = "FILE.png")]
+    pub(crate) plot: Option<PathBuf>,
     /// Write the report as JSON
     #[arg(long, value_name = "FILE.json")]
     pub(crate) report: Option<PathBuf>,

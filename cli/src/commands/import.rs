@@ -122,6 +122,7 @@ pub(crate) fn surface(args: &ImportSurface, console: Console) -> Result<(), Fail
     }
     let requested = RequestedOutputs {
         emit_model: args.emit_model.as_deref(),
+        plot: args.plot.as_deref(),
         report: args.report.as_deref(),
         ..RequestedOutputs::of(&args.output, args.reporting)
     };

@@ -1,6 +1,6 @@
 //! A tip on a surface: its contact averages heights, and it rolls over the crests of what is left.
 
-use crate::{heights::HeightField, plane::Plane, stylus::Support};
+use crate::{heights::HeightField, plane::Plane, stylus::Support, wave_spectrum::WaveSpectrum};
 use std::{f64::consts::TAU, str::FromStr};
 
 /// Contact of a real tip over Hertz's: with it, measured profiles vibrate in the median within 2 dB as strongly as measured
@@ -112,6 +112,12 @@ impl Contact {
             plane: Plane::of(field.width(), &mut heights),
             field: field.clone(),
         }
+    }
+
+    /// Power of the heights themselves.
+    #[must_use]
+    pub fn bare(&self) -> WaveSpectrum {
+        WaveSpectrum::of(&self.field)
     }
 
     /// The heights that a tip follows: the field, averaged over the contact, and raised to where the tip touches two flanks at

@@ -122,6 +122,22 @@ impl HeightField {
         self.with_heights(levelled.collect())
     }
 
+    /// Some of the points, evenly, so that at most `most` are left along a side.
+    #[must_use]
+    pub fn thinned(&self, most: usize) -> Self {
+        let by = self.width.max(self.height()).div_ceil(most.max(SIDE.0));
+        let rows = self.heights_um.chunks_exact(self.width).step_by(by);
+        let heights_um: Vec<f32> = rows
+            .flat_map(|row| row.iter().step_by(by))
+            .copied()
+            .collect();
+        Self {
+            width: self.width.div_ceil(by),
+            pitch_mm: self.pitch_mm.map(|pitch| pitch * by as f64),
+            heights_um,
+        }
+    }
+
     /// The field as far as a tip can tell it from the whole: points are averaged until they are 0.02 mm apart, and of a field
     /// that is larger than [`SIDE`] then, its middle is taken.
     #[must_use]

@@ -49,7 +49,7 @@ const PAINT: &str =
 const CACHED: &str = "build cached.toml -o out.aspl --cache cache --json";
 
 /// Their number shares no divisor with the stride of the small size, so that it meets as many of them as it can.
-pub(crate) const FORMS: [Form; 90] = [
+pub(crate) const FORMS: [Form; 92] = [
     asperity("inspect in.asp", "in.asp", Seed::Asset),
     asperity("inspect in.asp --json", "in.asp", Seed::Asset),
     asperity("inspect in.aspl", "in.aspl", Seed::Library),
@@ -141,6 +141,16 @@ pub(crate) const FORMS: [Form; 90] = [
         "import hjif in.hjif -o out.asp --no-preview --fidelity full",
         "in.hjif",
         Seed::Hjif,
+    ),
+    asperity(
+        "import surface in.png -o out.asp --width-mm 6 --depth-mm 0.1 --no-preview",
+        "in.png",
+        Seed::Heights,
+    ),
+    asperity(
+        "import surface in.png -o out.asp --width-mm 6 --like cork --plot out.png --json",
+        "in.png",
+        Seed::Normals,
     ),
     asperity(
         "export in.asp --to hjif -o out.hjif --json",

@@ -6,7 +6,10 @@ use super::{
     run::run,
 };
 use crate::support::builtin;
-use asperity::interchange::{ClipFormat, Options, export, session};
+use asperity::{
+    interchange::{ClipFormat, Options, export, session},
+    views::preview,
+};
 use asperity_diffusion::tiny;
 use asperity_formats::{SceneSurface, Solid, library};
 use asperity_tests::draw::Draw;
@@ -28,6 +31,8 @@ pub(crate) enum Seed {
     Haptic,
     Ahap,
     Hjif,
+    Heights,
+    Normals,
     Description,
     Manifest,
     Rows,
@@ -65,6 +70,8 @@ impl Seed {
                 | Self::Prompted
                 | Self::Library
                 | Self::Scene
+                | Self::Heights
+                | Self::Normals
                 | Self::Projection
                 | Self::TapDecoder
                 | Self::RecordedWave
@@ -84,6 +91,8 @@ pub(crate) struct Seeds {
     model: Vec<u8>,
     /// Exports of the built-in texture: `.haptic`, AHAP, HJIF.
     effects: [Vec<u8>; 3],
+    /// Pictures of the heights and the normals of the built-in texture.
+    pictures: [Vec<u8>; 2],
     /// The shipped model as a folder.
     shipped: TempDir,
     trajectory: String,
@@ -208,6 +217,7 @@ impl Seeds {
             scene: encoded(&named, &[surface(0), surface(1)]),
             model: asperity::sources::model_file::to_json(&asperity::sources::builtin::texture()),
             effects: [ClipFormat::Haptic, ClipFormat::Ahap, ClipFormat::Hjif].map(effects),
+            pictures: pictures(),
             shipped,
             asset,
             prompted: read("cork.asp"),
@@ -237,6 +247,8 @@ impl Seeds {
             Seed::Haptic => &self.effects[0],
             Seed::Ahap => &self.effects[1],
             Seed::Hjif => &self.effects[2],
+            Seed::Heights => &self.pictures[0],
+            Seed::Normals => &self.pictures[1],
             Seed::Description => DESCRIPTION.as_bytes(),
             Seed::Manifest => MANIFEST.as_bytes(),
             Seed::Rows => ROWS.as_bytes(),
@@ -306,6 +318,12 @@ impl Seeds {
             symlink(file, folder.join("model").join(name)).expect("a link");
         }
     }
+}
+
+/// The heights and the normals of the built-in texture's preview.
+fn pictures() -> [Vec<u8>; 2] {
+    let drawn = preview::draw(&asperity::sources::builtin::texture(), 64).expect("a picture");
+    [drawn.height_png(), drawn.normal_png()].map(|png| png.expect("an encoded picture"))
 }
 
 /// A short stroke and taps of the built-in texture in a format.

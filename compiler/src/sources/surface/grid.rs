@@ -7,7 +7,7 @@ use asperity_surface::{
     stroke::Strokes,
     stylus::Support,
     vibration::{self, ORDER, POINTS, SAMPLE_RATE_HZ, Spectrum},
-    wave_spectrum::WaveSpectrum,
+    wave_spectrum::{LineSpectrum, WaveSpectrum},
 };
 use asperity_texture::model::{Direction, ModelGrid};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -21,7 +21,7 @@ const FORCES_N: [f64; 3] = [0.4, 1.0, 2.4];
 const MAX_SPEED_MM_S: f64 = 240.0;
 const MAX_FORCE_N: f64 = 3.2;
 /// The stroke by which levels and direction are said, mm/s and N, and which of the forces it has.
-const STROKE: (f64, f64) = (100.0, FORCES_N[STROKED]);
+pub(super) const STROKE: (f64, f64) = (100.0, FORCES_N[STROKED]);
 const STROKED: usize = 1;
 /// Loss factor of most that is hard.
 const LOSS_FACTOR: f64 = 0.1;
@@ -56,10 +56,12 @@ pub struct Survey {
     pub anisotropy_db: f64,
     /// Spatial frequency from which spectra are continued, 1/mm.
     pub measured_to_per_mm: f64,
-    /// Spectra of that stroke across and along the axis, (m/s²)²/Hz.
-    pub across: Box<Spectrum>,
-    /// As `across`, along.
-    pub along: Box<Spectrum>,
+    /// Heights of the map across and along the axis, and those that the tip follows under 1 N.
+    pub bare: [LineSpectrum; 2],
+    /// As `bare`, under the tip.
+    pub followed: [LineSpectrum; 2],
+    /// The modulus that was taken, MPa.
+    pub modulus_mpa: f64,
     /// Slowest stroke, under 0.4 N, that throws the stylus off, mm/s.
     pub thrown_mm_s: Option<f64>,
     /// True if a level was lowered to the largest that a model has.
@@ -84,11 +86,7 @@ impl<'a> Stroked<'a> {
     }
 
     fn support(&self, force_n: f64) -> Support {
-        Support {
-            modulus_mpa: self.modulus_mpa,
-            loss_factor: LOSS_FACTOR,
-            force_n,
-        }
+        support(self.modulus_mpa, force_n)
     }
 
     /// Power of the heights that the tip follows under a force.
@@ -108,8 +106,10 @@ impl<'a> Stroked<'a> {
         let support = self.support(STROKE.1);
         let waves = FORCES_N.map(|force_n| self.waves(force_n));
         let across_rad = waves[STROKED].across_rad();
-        let strokes =
-            [0.0, FRAC_PI_2].map(|turn| Strokes::over(&waves[STROKED].along(across_rad + turn)));
+        let turns = [0.0, FRAC_PI_2];
+        let followed = turns.map(|turn| waves[STROKED].along(across_rad + turn));
+        let strokes = followed.each_ref().map(Strokes::over);
+        let bare = self.contact.bare();
         let [across, along] = strokes.each_ref().map(|s| s.power(STROKE.0, &support));
         let anisotropy_db = level_db(&across) - level_db(&along);
         let power = |n: usize| {
@@ -148,8 +148,9 @@ impl<'a> Stroked<'a> {
             anisotropy_db,
             measured_to_per_mm: strokes[0].measured_to_per_mm(),
             thrown_mm_s: self.thrown_mm_s(&by_force[0]),
-            across: Box::new(across),
-            along: Box::new(along),
+            bare: turns.map(|turn| bare.along(across_rad + turn)),
+            followed,
+            modulus_mpa: self.modulus_mpa,
             is_limited: loudest > LOUDEST_DB,
         }
     }
@@ -190,6 +191,21 @@ impl<'a> Stroked<'a> {
             CREST * libm::exp10(level / 20.0) > force_n / STYLUS_KG
         };
         SPEEDS_MM_S.into_iter().find(thrown)
+    }
+}
+
+impl Survey {
+    /// The surface as it carries the stylus in the stroke of which it tells.
+    pub(super) fn support(&self) -> Support {
+        support(self.modulus_mpa, STROKE.1)
+    }
+}
+
+fn support(modulus_mpa: f64, force_n: f64) -> Support {
+    Support {
+        modulus_mpa,
+        loss_factor: LOSS_FACTOR,
+        force_n,
     }
 }
 

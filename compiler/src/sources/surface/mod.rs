@@ -8,6 +8,7 @@ mod grid;
 mod options;
 mod picture;
 mod report;
+mod sheet;
 mod source;
 
 pub use asperity_surface::{

@@ -24,7 +24,7 @@ pub(super) fn json(found: &Surveyed, compiled: &Compiled) -> Value {
         "pitch_mm": found.pitch_mm,
         "rms_um": found.rms_um,
         "guessed_depth_mm": found.guessed_mm,
-        "modulus_mpa": found.modulus_mpa,
+        "modulus_mpa": found.survey.modulus_mpa,
         "like": found.like,
         "nearest": found.nearest,
         "level_db": survey.level_db,
@@ -72,7 +72,7 @@ pub(super) fn text(found: &Surveyed, compiled: &Compiled) -> String {
     lines.push(match (&found.like, found.nearest.first()) {
         (Some(like), _) => format!(
             "hardness ({:.3} MPa), taps, friction and wall: those of \"{like}\"",
-            found.modulus_mpa
+            found.survey.modulus_mpa
         ),
         (None, Some(nearest)) => format!(
             "taps, friction and wall: those that go with such a vibration, as {}'s; something hard was assumed",

@@ -4,6 +4,7 @@ use super::{
     Options,
     grid::{Stroked, Survey},
     options, picture, report,
+    sheet::sheet,
 };
 use crate::{
     compiled::{Compiled, ErrorReference},
@@ -22,6 +23,7 @@ use asperity_io::{
     diagnostic::{Failure, Fault},
     input::{InputError, InputKind},
 };
+use asperity_plot::PlotError;
 use asperity_surface::{
     contact::{Contact, Tip},
     heights::HeightField,
@@ -37,6 +39,8 @@ use std::{path::PathBuf, sync::Arc};
 const HARD_MPA: f64 = 1000.0;
 /// Level that heights of no stated depth are scaled to where no words say another, dB re 1 m/s².
 const USUAL_DB: f64 = 0.0;
+/// Most points along a side of the heights that are kept for a picture.
+const THUMBNAIL: usize = 256;
 /// Steps towards that level.
 const STEPS: usize = 3;
 /// Ranges of heights that may be guessed, mm.
@@ -68,8 +72,8 @@ pub struct Surveyed {
     pub survey: Survey,
     /// Height of white above black, mm, that was taken where none was stated.
     pub guessed_mm: Option<f64>,
-    /// The modulus that was taken, MPa.
-    pub modulus_mpa: f64,
+    /// The heights, at most 256 × 256 points.
+    pub thumbnail: HeightField,
     /// The words that said it.
     pub like: Option<String>,
     /// The materials that complete it where no words do, the nearest first.
@@ -262,7 +266,7 @@ impl Source for Surface {
             notes: map.notes,
             survey,
             guessed_mm,
-            modulus_mpa,
+            thumbnail: field.thinned(THUMBNAIL),
             like: like.clone(),
             nearest,
         };
@@ -321,5 +325,9 @@ impl Findings for Surveyed {
 
     fn json(&self, compiled: &Compiled) -> Value {
         report::json(self, compiled)
+    }
+
+    fn sheet(&self, compiled: &Compiled) -> Result<Option<Vec<u8>>, PlotError> {
+        sheet(self, &compiled.whole).map(Some)
     }
 }
