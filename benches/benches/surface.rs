@@ -53,7 +53,7 @@ fn materials(c: &mut Criterion) {
                 path,
                 options: Options {
                     size: Size {
-                        width_mm: 100.0,
+                        width_mm: Some(100.0),
                         depth_mm: Some(0.1),
                     },
                     like: None,

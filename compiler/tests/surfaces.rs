@@ -52,7 +52,7 @@ fn compiled(map: &[u8], width_mm: f64, depth_mm: f64) -> Compiled {
         path: file.to_owned(),
         options: Options {
             size: Size {
-                width_mm,
+                width_mm: Some(width_mm),
                 depth_mm: Some(depth_mm),
             },
             like: None,

@@ -112,14 +112,14 @@ Examples:
   asperity import surface cracks.png -o cracks.asp --width-mm 50 --depth-mm -0.3"
 )]
 pub(crate) struct ImportSurface {
-    /// A height map or a normal map (.png, .tif, .jpg), or a folder with the pictures of a material
+    /// A height map or a normal map (.png, .tif, .jpg), a folder with the pictures of a material, or a profile (.csv)
     pub(crate) path: PathBuf,
     /// The asset to write; `-` is standard output. A library (.aspl), or a folder, takes every map and material of a folder
     #[arg(short, long)]
     pub(crate) output: PathBuf,
-    /// Width of the surface that the map shows, mm
+    /// Width of the surface that the map shows, mm; only a profile with positions says it
     #[arg(long, value_name = "W")]
-    pub(crate) width_mm: f64,
+    pub(crate) width_mm: Option<f64>,
     /// Height of white above black, mm, or of the highest point above the lowest in floating point; negative where white
     /// is low [default: as strong as --like]
     #[arg(long, value_name = "D", allow_negative_numbers = true)]

@@ -102,7 +102,7 @@ impl<'a> Stroked<'a> {
     }
 
     /// What strokes over it meet.
-    pub(super) fn survey(&self) -> Survey {
+    pub(super) fn survey(&self, is_profile: bool) -> Survey {
         let support = self.support(STROKE.1);
         let waves = FORCES_N.map(|force_n| self.waves(force_n));
         let across_rad = waves[STROKED].across_rad();
@@ -123,7 +123,7 @@ impl<'a> Stroked<'a> {
         let ratios = direction::fit(&speeds, power(0), power(1));
         let turned = ratios.speed.max(1.0 / ratios.speed) > FELT.1;
         let sounds = level_db(&across) > SILENT_DB;
-        let is_directed = sounds && (anisotropy_db.abs() > FELT.0 || turned);
+        let is_directed = sounds && !is_profile && (anisotropy_db.abs() > FELT.0 || turned);
         let axis = across_rad + FRAC_PI_2;
         let direction = is_directed.then(|| Direction {
             axis: [libm::cos(axis), libm::sin(axis), 0.0],
@@ -134,7 +134,7 @@ impl<'a> Stroked<'a> {
         // Across the axis; in any direction where there is none.
         let strokes_of = |waves: &WaveSpectrum| {
             let across = waves.along(across_rad);
-            if is_directed {
+            if is_directed || is_profile {
                 return Strokes::over(&across);
             }
             Strokes::over(&across.mean(&waves.along(across_rad + FRAC_PI_2)))

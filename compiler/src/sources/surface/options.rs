@@ -36,10 +36,6 @@ impl Options {
             let parsed = |text: &str| text.parse().map_err(|_| wrong(key, text, "a number of mm"));
             text(key).map(parsed).transpose()
         };
-        let width_mm = number("width_mm")?.ok_or_else(|| {
-            let remedy = "state how wide the surface is that the picture shows, in mm";
-            Fault::new("no picture says its width", remedy).field("width_mm")
-        })?;
         let like = text("like").map(str::to_owned);
         if let Some(like) = &like {
             prompt::check(like).map_err(|error| Fault::of(&error).field("like"))?;
@@ -54,7 +50,7 @@ impl Options {
         };
         Ok(Self {
             size: Size {
-                width_mm,
+                width_mm: number("width_mm")?,
                 depth_mm: number("depth_mm")?,
             },
             like,

@@ -27,13 +27,18 @@ use asperity_plot::PlotError;
 use asperity_surface::{
     contact::{Contact, Tip},
     heights::HeightField,
-    map::{Convention, HeightMap, Material, Pictures, Raster},
+    map::{Convention, HeightMap, Material, Pictures, Raster, profile},
 };
 use asperity_texture::model::{
     Friction, FrictionAnchor, Provenance, TextureModel, Wall, attributes, defaults,
 };
 use serde_json::Value;
-use std::{path::PathBuf, sync::Arc};
+use std::{
+    borrow::Cow,
+    ffi::OsStr,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 /// Modulus of something hard, MPa, where no words say another.
 const HARD_MPA: f64 = 1000.0;
@@ -108,19 +113,30 @@ impl Surface {
         })
     }
 
+    fn bytes<'a>(&self, file: &Path, tools: &Tools<'a>) -> Result<Cow<'a, [u8]>, Failure> {
+        let bytes = tools.file(file, InputKind::HeightMap);
+        Ok(bytes.map_err(|problem| InputError {
+            file: file.to_owned(),
+            problem,
+        })?)
+    }
+
     /// The heights, what the surface looks like, and the CRC-32 of all pictures.
     fn read(&self, tools: &Tools<'_>) -> Result<(HeightMap, Option<Raster>, u32), Failure> {
+        self.options.size.check()?;
+        if self.path.extension().is_some_and(is_table) {
+            let bytes = self.bytes(&self.path, tools)?;
+            let map = profile(&bytes, &self.options.size);
+            let map = map.map_err(|fault| placed(fault, &self.path))?;
+            return Ok((map, None, crc32fast::hash(&bytes)));
+        }
         let material = self.material()?;
         let mut hasher = crc32fast::Hasher::new();
         let mut raster = |file: &Option<PathBuf>| -> Result<Option<Raster>, Failure> {
             let Some(file) = file else {
                 return Ok(None);
             };
-            let bytes = tools.file(file, InputKind::HeightMap);
-            let bytes = bytes.map_err(|problem| InputError {
-                file: file.clone(),
-                problem,
-            })?;
+            let bytes = self.bytes(file, tools)?;
             hasher.update(&bytes);
             Ok(Some(Raster::read(&bytes).map_err(|fault| fault.at(file))?))
         };
@@ -136,11 +152,23 @@ impl Surface {
             },
         };
         let heights = pictures.heights(&self.options.size);
-        let heights = heights.map_err(|fault| match fault.usage {
-            true => fault,
-            false => fault.at(&self.path),
-        })?;
+        let heights = heights.map_err(|fault| placed(fault, &self.path))?;
         Ok((heights, color, hasher.finalize()))
+    }
+}
+
+/// Returns true for the ending of a profile's file.
+fn is_table(ending: &OsStr) -> bool {
+    ["csv", "tsv", "txt"]
+        .iter()
+        .any(|table| ending.eq_ignore_ascii_case(table))
+}
+
+/// A fault of a map, at its path unless it is one of the command.
+fn placed(fault: Fault, path: &Path) -> Fault {
+    match fault.usage {
+        true => fault,
+        false => fault.at(path),
     }
 }
 
@@ -193,7 +221,7 @@ impl Source for Surface {
             };
             let contact = Contact::with(&map.field);
             (
-                Stroked::new(&contact, *tip, modulus_mpa).survey(),
+                Stroked::new(&contact, *tip, modulus_mpa).survey(map.is_profile),
                 guessed_mm,
             )
         });
@@ -308,7 +336,7 @@ impl ManifestSource for Surface {
             convention,
         } = &self.options;
         let parts = parts
-            .number(size.width_mm)
+            .number(size.width_mm.unwrap_or(f64::NAN))
             .number(size.depth_mm.unwrap_or(f64::NAN))
             .number(tip.radius_mm)
             .text(convention.map_or("", Convention::name))

@@ -3,10 +3,12 @@
 mod grey;
 mod material;
 mod normal_map;
+mod profile;
 mod raster;
 
 pub use material::{Material, all};
 pub use normal_map::Convention;
+pub use profile::profile;
 pub use raster::Raster;
 
 use crate::{
@@ -31,8 +33,8 @@ const CONTRADICTED_DB: f64 = 3.0;
 /// The size of a map, which no picture says.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Size {
-    /// Width of the map, mm.
-    pub width_mm: f64,
+    /// Width of the map, mm; `None` for profiles that state it.
+    pub width_mm: Option<f64>,
     /// Height of white above black, or of the highest point above the lowest in floating point, mm; negative where white
     /// is low.
     pub depth_mm: Option<f64>,
@@ -56,6 +58,8 @@ pub struct HeightMap {
     pub field: HeightField,
     /// True if the depth was stated, or follows from normals.
     pub has_depth: bool,
+    /// True for a profile, which says nothing of other directions.
+    pub is_profile: bool,
     /// Pixels of the picture.
     pub pixels: [usize; 2],
     /// Findings that the user should know.
@@ -140,6 +144,7 @@ impl Pictures {
         Ok(HeightMap {
             field,
             has_depth,
+            is_profile: false,
             pixels: [columns, rows],
             notes,
         })
@@ -175,9 +180,14 @@ impl Pictures {
 }
 
 impl Size {
-    fn check(&self) -> Result<(), Fault> {
-        if !(self.width_mm.is_finite() && (0.1..=10_000.0).contains(&self.width_mm)) {
-            let what = format!("{} mm is no width of a map", self.width_mm);
+    /// Checks what is stated.
+    ///
+    /// # Errors
+    /// [`Fault`] for a width or a depth that no map has.
+    pub fn check(&self) -> Result<(), Fault> {
+        let width_mm = self.width_mm.unwrap_or(1.0);
+        if !(width_mm.is_finite() && (0.1..=10_000.0).contains(&width_mm)) {
+            let what = format!("{width_mm} mm is no width of a map");
             let remedy = "state how wide the surface is that the picture shows, 0.1 to 10000 mm";
             return Err(Fault::new(what, remedy).field("--width-mm").usage());
         }
@@ -198,21 +208,34 @@ impl Size {
             let what = format!("{columns} × {rows} pixels; at least {least} × {least} are needed");
             return Err(Fault::new(what, "give a larger map"));
         }
-        let pitch_mm = self.width_mm / columns as f64;
-        let coarsest_mm = pitch_mm.max(pitch_mm * raster.aspect);
-        if coarsest_mm > COARSEST_MM {
-            let what = format!(
-                "points {coarsest_mm:.2} mm apart are too coarse: strokes of 20 mm/s meet nothing above 30 Hz"
-            );
-            let most_mm = self.width_mm * COARSEST_MM / coarsest_mm;
-            let fewest = (columns as f64 * coarsest_mm / COARSEST_MM).ceil();
-            let remedy = format!(
-                "give a map of at least {fewest} pixels a row, or the true width if it is {most_mm:.0} mm or less"
-            );
-            return Err(Fault::new(what, remedy).field("--width-mm"));
-        }
+        let width_mm = self.width_mm.ok_or_else(no_width)?;
+        let pitch_mm = width_mm / columns as f64;
+        fine_enough(pitch_mm.max(pitch_mm * raster.aspect), width_mm, columns)?;
         Ok([pitch_mm, pitch_mm * raster.aspect])
     }
+}
+
+fn no_width() -> Fault {
+    let remedy = "state how wide the surface is that the picture shows, in mm";
+    Fault::new("no picture says its width", remedy)
+        .field("--width-mm")
+        .usage()
+}
+
+/// Refuses points too far apart for any vibration.
+fn fine_enough(coarsest_mm: f64, width_mm: f64, columns: usize) -> Result<(), Fault> {
+    if coarsest_mm <= COARSEST_MM {
+        return Ok(());
+    }
+    let what = format!(
+        "points {coarsest_mm:.2} mm apart are too coarse: strokes of 20 mm/s meet nothing above 30 Hz"
+    );
+    let most_mm = width_mm * COARSEST_MM / coarsest_mm;
+    let fewest = (columns as f64 * coarsest_mm / COARSEST_MM).ceil();
+    let remedy = format!(
+        "give a map of at least {fewest} points a row, or the true width if it is {most_mm:.0} mm or less"
+    );
+    Err(Fault::new(what, remedy).field("--width-mm"))
 }
 
 fn unheld() -> Fault {
