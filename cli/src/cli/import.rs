@@ -101,7 +101,8 @@ make of that at many speeds and forces becomes the texture, with the axis of rib
 Heights are greyscale, white high; 16 bits keep fine relief. Of a folder, heights, normals and the \
 base colour, which becomes the preview, are recognised by their usual names; long waves follow the \
 heights, short ones the normals. What a map cannot say, \
-hardness, taps and friction, comes from --like, or else from materials that vibrate alike. \
+hardness, taps and friction, comes from --like, or else from materials that vibrate alike. A picture has \
+16 to 8192 pixels a side; of more than 2048 points, the middle is stroked. \
 docs/surfaces.md explains the method and its limits.
 
 Examples:
@@ -118,11 +119,11 @@ pub(crate) struct ImportSurface {
     #[arg(short, long)]
     pub(crate) output: PathBuf,
     /// Width of the surface that the map shows, mm; only a profile with positions says it
-    #[arg(long, value_name = "W")]
+    #[arg(long, value_name = "W", allow_hyphen_values = true)]
     pub(crate) width_mm: Option<f64>,
     /// Height of white above black, mm, or of the highest point above the lowest in floating point; negative where white
     /// is low [default: as strong as --like]
-    #[arg(long, value_name = "D", allow_negative_numbers = true)]
+    #[arg(long, value_name = "D", allow_hyphen_values = true)]
     pub(crate) depth_mm: Option<f64>,
     /// Where green points to in normals: up, as OpenGL has it, or down, as DirectX does [default: what fits a surface]
     #[arg(long, value_name = "gl|dx")]

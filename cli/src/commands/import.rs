@@ -19,7 +19,7 @@ use asperity::{
     },
 };
 use asperity_console::Console;
-use asperity_io::diagnostic::{Failures, one};
+use asperity_io::diagnostic::{Failures, Fault, one};
 
 pub(crate) fn model(args: &ImportModel, console: Console) -> Result<(), Failures> {
     let source = ModelFile {
@@ -97,7 +97,21 @@ pub(crate) fn surface(args: &ImportSurface, console: Console) -> Result<(), Fail
         },
     };
     let extension = args.output.extension().unwrap_or_default();
-    let many = extension.eq_ignore_ascii_case("aspl") || args.output.is_dir();
+    let names_folder = args.output.to_string_lossy().ends_with(['/', '\\']) || args.output.is_dir();
+    let many = extension.eq_ignore_ascii_case("aspl") || names_folder;
+    let single = [
+        ("--name", args.name.is_some()),
+        ("--plot", args.plot.is_some()),
+        ("--report", args.report.is_some()),
+    ];
+    if let (true, Some((option, _))) = (many, single.iter().find(|(_, stated)| *stated)) {
+        let what = format!(
+            "{option} is of one texture, and {} takes many",
+            args.output.display()
+        );
+        let remedy = "leave it out, or give an output that ends in .asp";
+        return Err(one(Fault::new(what, remedy).usage()));
+    }
     let sources: Vec<Surface> = match many {
         true => surface::all(&args.path).map_err(one)?,
         false => vec![args.path.clone()],

@@ -114,6 +114,12 @@ impl Contact {
         }
     }
 
+    /// Number of the points of the field.
+    #[must_use]
+    pub fn points(&self) -> f64 {
+        self.field.heights_um().len() as f64
+    }
+
     /// Power of the heights themselves.
     #[must_use]
     pub fn bare(&self) -> WaveSpectrum {

@@ -3,14 +3,17 @@
 use asperity_io::diagnostic::Fault;
 use asperity_surface::{
     contact::{Contact, Tip},
-    map::{HeightMap, Pictures, Raster, Size, profile},
+    map::{Convention, HeightMap, Pictures, Raster, Size, profile},
     stroke::Strokes,
     stylus::Support,
     wave_spectrum::WaveSpectrum,
 };
 use png::{BitDepth, ColorType, Encoder, PixelDimensions, SrgbRenderingIntent, Unit};
 use std::io::Cursor;
-use tiff::encoder::{TiffEncoder, colortype};
+use tiff::{
+    encoder::{TiffEncoder, colortype},
+    tags::Tag,
+};
 
 const SIDE: u32 = 64;
 const SIZE: Size = Size {
@@ -182,6 +185,34 @@ fn what_shows_no_heights_is_refused() {
     }
 }
 
+/// Claim: marks of holes in floating point are holes, by the file's word or far from all heights; bits are not taken for bytes.
+#[test]
+fn marks_of_holes_are_no_heights() {
+    let marked = floats(|n, h| if n == 70 { -9999.0 } else { h });
+    let message = refused(&marked, &SIZE);
+    assert!(
+        message.contains("-9999 is far from all others"),
+        "{message}"
+    );
+    let steep = floats(|n, h| h + 0.02 * (n % 64) as f32);
+    assert!(read(&steep, &SIZE).is_ok());
+    let mut bytes = Cursor::new(Vec::new());
+    let mut encoder = TiffEncoder::new(&mut bytes).unwrap();
+    let mut image = encoder
+        .new_image::<colortype::Gray32Float>(SIDE, SIDE)
+        .unwrap();
+    image.encoder().write_tag(Tag::GdalNodata, "-1").unwrap();
+    let heights: Vec<f32> = (0..SIDE * SIDE)
+        .map(|n| if n == 9 { -1.0 } else { (n % 7) as f32 })
+        .collect();
+    image.write_data(&heights).unwrap();
+    let message = refused(&bytes.into_inner(), &SIZE);
+    assert!(
+        message.contains("1 of its numbers are no heights"),
+        "{message}"
+    );
+}
+
 /// Claim: what can be read with a doubt is read, and the doubt is said.
 #[test]
 fn doubts_are_said() {
@@ -208,6 +239,14 @@ fn doubts_are_said() {
     assert!(notes(&oblong, &SIZE).contains("2.000 times as high"));
     let [x, y] = read(&oblong, &SIZE).unwrap().field.pitch_mm();
     assert!((y / x - 2.0).abs() < 1e-9);
+    let absurd = grey(&|encoder| {
+        encoder.set_pixel_dims(Some(PixelDimensions {
+            xppu: 0,
+            yppu: 5000,
+            unit: Unit::Unspecified,
+        }));
+    });
+    assert_eq!(notes(&absurd, &SIZE), "");
     let steps = png(
         ColorType::Grayscale,
         BitDepth::Eight,
@@ -324,6 +363,7 @@ fn raster(channels: usize, of: impl Fn(u32, u32) -> Vec<f64>) -> Raster {
     let pixels = (0..FINE * FINE).flat_map(|n| of(n % FINE, n / FINE));
     Raster {
         width: FINE as usize,
+        whole: [FINE as usize; 2],
         channels,
         samples: pixels.map(|part| part as f32).collect(),
         largest: Some(65535),
@@ -386,6 +426,15 @@ fn heights_and_normals_agree() {
             }
         }
     }
+    let wrong = Pictures {
+        convention: Some(Convention::Gl),
+        ..Pictures::of(normals(1.0), None)
+    };
+    assert!(
+        level(&wrong, None, 0.0)
+            .1
+            .contains("with dx the slopes would belong to a surface")
+    );
     // A relief three times as deep as its normals say, and one turned inside out.
     let both = Pictures {
         height: Some(heights),

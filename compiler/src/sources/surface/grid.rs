@@ -34,7 +34,9 @@ const FLOOR: f64 = 0.05;
 /// Least |1 + z⁻¹|² that is divided out; its peak is 4.
 const NYQUIST_FLOOR: f64 = 1e-4;
 /// A direction is felt from this difference of the level, dB, and this factor of the speed.
-const FELT: (f64, f64) = (1.0, 1.3);
+const FELT: (f64, f64) = (1.5, 1.5);
+/// Difference of the level that noise has on a map of one point, dB; it falls with the root of their number.
+const CHANCE_DB: f64 = 64.0;
 /// Speeds that are compared for it, over that at which the vibration has this centroid, Hz.
 const SPREAD: [f64; 3] = [0.6, 1.0, 1.6];
 const CENTRE_HZ: f64 = 120.0;
@@ -64,8 +66,8 @@ pub struct Survey {
     pub modulus_mpa: f64,
     /// Slowest stroke, under 0.4 N, that throws the stylus off, mm/s.
     pub thrown_mm_s: Option<f64>,
-    /// True if a level was lowered to the largest that a model has.
-    pub is_limited: bool,
+    /// Slowest stroke of the grid whose level was lowered to the largest that a model has, mm/s.
+    pub limited_mm_s: Option<f64>,
 }
 
 /// A field under a tip.
@@ -111,7 +113,10 @@ impl<'a> Stroked<'a> {
         let strokes = followed.each_ref().map(Strokes::over);
         let bare = self.contact.bare();
         let [across, along] = strokes.each_ref().map(|s| s.power(STROKE.0, &support));
-        let anisotropy_db = level_db(&across) - level_db(&along);
+        let anisotropy_db = match is_profile {
+            true => 0.0,
+            false => level_db(&across) - level_db(&along),
+        };
         let power = |n: usize| {
             let strokes = &strokes[n];
             move |speed_mm_s| strokes.power(speed_mm_s, &support)
@@ -121,9 +126,10 @@ impl<'a> Stroked<'a> {
         let speeds =
             SPREAD.map(|factor| (factor * centre_mm_s).clamp(SPEEDS_MM_S[0], MAX_SPEED_MM_S));
         let ratios = direction::fit(&speeds, power(0), power(1));
-        let turned = ratios.speed.max(1.0 / ratios.speed) > FELT.1;
+        let felt_db = FELT.0 + CHANCE_DB / self.contact.points().sqrt();
+        let turned = !is_profile && ratios.speed.max(1.0 / ratios.speed) > FELT.1;
         let sounds = level_db(&across) > SILENT_DB;
-        let is_directed = sounds && !is_profile && (anisotropy_db.abs() > FELT.0 || turned);
+        let is_directed = sounds && !is_profile && (anisotropy_db > felt_db || turned);
         let axis = across_rad + FRAC_PI_2;
         let direction = is_directed.then(|| Direction {
             axis: [libm::cos(axis), libm::sin(axis), 0.0],
@@ -140,7 +146,7 @@ impl<'a> Stroked<'a> {
             Strokes::over(&across.mean(&waves.along(across_rad + FRAC_PI_2)))
         };
         let by_force = waves.each_ref().map(strokes_of);
-        let (grid, loudest) = self.grid(&by_force);
+        let (grid, limited_mm_s) = self.grid(&by_force);
         Survey {
             grid,
             direction,
@@ -151,12 +157,12 @@ impl<'a> Stroked<'a> {
             bare: turns.map(|turn| bare.along(across_rad + turn)),
             followed,
             modulus_mpa: self.modulus_mpa,
-            is_limited: loudest > LOUDEST_DB,
+            limited_mm_s,
         }
     }
 
-    /// The grid, and its largest level, dB.
-    fn grid(&self, by_force: &[Strokes]) -> (ModelGrid, f64) {
+    /// The grid, and the slowest stroke whose level is limited, mm/s.
+    fn grid(&self, by_force: &[Strokes]) -> (ModelGrid, Option<f64>) {
         let mut description = GridDescription {
             order: ORDER,
             sample_rate_hz: SAMPLE_RATE_HZ,
@@ -169,18 +175,20 @@ impl<'a> Stroked<'a> {
             lsf_rad: Vec::new(),
             level_db: Vec::new(),
         };
-        let mut loudest = f64::MIN;
+        let mut limited_mm_s: Option<f64> = None;
         for (force_n, strokes) in FORCES_N.into_iter().zip(by_force) {
             for speed_mm_s in SPEEDS_MM_S {
                 let power = strokes.power(speed_mm_s, &self.support(force_n));
-                loudest = loudest.max(level_db(&power));
+                if level_db(&power) > LOUDEST_DB {
+                    limited_mm_s = Some(limited_mm_s.map_or(speed_mm_s, |v| v.min(speed_mm_s)));
+                }
                 description.speeds_mm_s.push(speed_mm_s);
                 description.forces_n.push(force_n);
                 decoded.lsf_rad.extend(shape(&power));
                 decoded.level_db.push(level_db(&power) as f32);
             }
         }
-        (texture::grid(&description, &decoded), loudest)
+        (texture::grid(&description, &decoded), limited_mm_s)
     }
 
     /// Slowest speed of the grid at which an acceleration under the least force throws a stylus off.

@@ -48,11 +48,13 @@ impl Options {
             name.parse()
                 .map_err(|wanted: String| wrong("normal", name, &wanted))
         };
+        let size = Size {
+            width_mm: number("width_mm")?,
+            depth_mm: number("depth_mm")?,
+        };
+        size.check()?;
         Ok(Self {
-            size: Size {
-                width_mm: number("width_mm")?,
-                depth_mm: number("depth_mm")?,
-            },
+            size,
             like,
             tip: text("tip").map_or(Ok(Tip::STYLUS), tip)?,
             convention: text("normal").map(convention).transpose()?,

@@ -32,6 +32,8 @@ pub(super) fn json(found: &Surveyed, compiled: &Compiled) -> Value {
         "direction": survey.direction,
         "measured_to_per_mm": survey.measured_to_per_mm,
         "thrown_mm_s": survey.thrown_mm_s,
+        "limited_mm_s": survey.limited_mm_s,
+        "files": found.files,
         "notes": found.notes,
     });
     report
@@ -102,17 +104,18 @@ pub(super) fn notes(found: &Surveyed) -> String {
 /// What the user should know.
 pub(super) fn warnings(found: &Surveyed) -> Vec<String> {
     let mut warnings = found.notes.clone();
-    if let Some(depth_mm) = found.guessed_mm {
-        warnings.push(match found.rms_um > 0.0 {
-            true => format!(
-                "no depth was stated, so heights are a guess: {depth_mm:.4} mm from black to white vibrate as strongly as {}; state --depth-mm",
-                found.like.as_ref().map_or_else(|| "most things".to_owned(), |like| format!("\"{like}\""))
-            ),
-            false => "the map is flat".to_owned(),
-        });
+    if found.rms_um <= 0.0 {
+        warnings.push("the map is flat: nothing vibrates".to_owned());
+    } else if let Some(depth_mm) = found.guessed_mm {
+        warnings.push(format!(
+            "no depth was stated, so heights and the level of {:.1} dB re 1 m/s² are a guess, {depth_mm:.4} mm from black to white: state --depth-mm",
+            found.survey.level_db
+        ));
     }
-    if found.survey.is_limited {
-        warnings.push("the relief is so high that its vibration was lowered to what a texture can have, 20 dB re 1 m/s²: check the width and the depth".to_owned());
+    if let Some(speed_mm_s) = found.survey.limited_mm_s {
+        warnings.push(format!(
+            "from {speed_mm_s:.0} mm/s on, the vibration is lowered to what a texture can have, 20 dB re 1 m/s²: check the width and the depth"
+        ));
     }
     if let Some(speed_mm_s) = found.survey.thrown_mm_s {
         warnings.push(format!(

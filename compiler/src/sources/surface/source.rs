@@ -46,6 +46,8 @@ const HARD_MPA: f64 = 1000.0;
 const USUAL_DB: f64 = 0.0;
 /// Most points along a side of the heights that are kept for a picture.
 const THUMBNAIL: usize = 256;
+/// Most pixels of a picture that are kept.
+const MOST_PIXELS: [usize; 2] = [4096; 2];
 /// Steps towards that level.
 const STEPS: usize = 3;
 /// Ranges of heights that may be guessed, mm.
@@ -63,6 +65,8 @@ pub struct Surface {
 /// Findings of a surface.
 #[derive(Debug)]
 pub struct Surveyed {
+    /// The files that were read.
+    pub files: Vec<PathBuf>,
     /// Pixels of the pictures.
     pub pixels: [usize; 2],
     /// Points of the field that was stroked.
@@ -138,10 +142,12 @@ impl Surface {
             };
             let bytes = self.bytes(file, tools)?;
             hasher.update(&bytes);
-            Ok(Some(Raster::read(&bytes).map_err(|fault| fault.at(file))?))
+            let raster = Raster::read(&bytes).map_err(|fault| fault.at(file))?;
+            // No more of it is stroked.
+            Ok(Some(raster.middle(MOST_PIXELS)))
         };
-        let (height, normal) = (raster(&material.height)?, raster(&material.normal)?);
         let color = raster(&material.color)?;
+        let (height, normal) = (raster(&material.height)?, raster(&material.normal)?);
         let convention = self.options.convention.or(material.convention);
         let pictures = match (height, normal) {
             (Some(only), None) => Pictures::of(only, convention),
@@ -287,6 +293,7 @@ impl Source for Surface {
             None => picture::of_heights(field, size_px),
         });
         let surveyed = Surveyed {
+            files: self.inputs(),
             pixels: map.pixels,
             points: [field.width(), field.height()],
             pitch_mm: field.pitch_mm(),
@@ -341,7 +348,15 @@ impl ManifestSource for Surface {
             .number(tip.radius_mm)
             .text(convention.map_or("", Convention::name))
             .text(like.as_deref().unwrap_or_default());
-        let mut files = self.inputs().into_iter();
+        let mut files = match self.path.extension().is_some_and(is_table) {
+            true => vec![self.path.clone()].into_iter(),
+            false => self
+                .material()?
+                .files()
+                .cloned()
+                .collect::<Vec<_>>()
+                .into_iter(),
+        };
         Ok(files.try_fold(parts, |parts, file| parts.file(&file, InputKind::HeightMap))?)
     }
 }

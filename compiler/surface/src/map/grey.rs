@@ -8,6 +8,9 @@ use asperity_io::diagnostic::Fault;
 const GREY: f32 = 1.5 / 255.0;
 /// Different numbers up to which a map counts as stored in steps.
 const FEW: usize = 256;
+/// Numbers that are looked at for outliers, and how many times their range an outlier is away.
+const SAMPLED: usize = 20_000;
+const FAR: f32 = 100.0;
 
 /// The grey of every pixel, if all are grey.
 pub(super) fn grey(raster: &Raster) -> Result<Vec<f32>, Fault> {
@@ -66,6 +69,35 @@ pub(super) fn skewness(field: &HeightField) -> f64 {
         cubes / field.heights_um().len() as f64 / rms.powi(3)
     } else {
         0.0
+    }
+}
+
+/// Refuses a floating-point picture whose lowest or highest number is far from all others: it marks what was not measured.
+pub(super) fn without_marks(samples: &[f32]) -> Result<(), Fault> {
+    let mut some: Vec<f32> = samples
+        .iter()
+        .step_by((samples.len() / SAMPLED).max(1))
+        .copied()
+        .collect();
+    some.sort_by(f32::total_cmp);
+    let part = |share: f64| some[((some.len() - 1) as f64 * share) as usize];
+    let (low, high) = (part(0.1), part(0.9));
+    let far = |value: f32| (value - low).abs().min((value - high).abs()) > FAR * (high - low);
+    let ends = samples.iter().fold((f32::MAX, f32::MIN), |(low, high), h| {
+        (low.min(*h), high.max(*h))
+    });
+    let mark = [ends.0, ends.1]
+        .into_iter()
+        .find(|end| far(*end) && high > low);
+    match mark {
+        None => Ok(()),
+        Some(mark) => {
+            let what = format!("its number {mark} is far from all others, as marks of holes are");
+            Err(Fault::new(
+                what,
+                "fill the holes of the scan, as its software can",
+            ))
+        }
     }
 }
 

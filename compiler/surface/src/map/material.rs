@@ -3,21 +3,22 @@
 use super::Convention;
 use asperity_io::diagnostic::Fault;
 use std::{
+    collections::BTreeSet,
     fs,
     path::{Path, PathBuf},
 };
 
 /// Endings of pictures that are read, the most exact first.
 const ENDINGS: [&str; 5] = ["tif", "tiff", "png", "jpg", "jpeg"];
-/// Parts of names of maps of heights.
+/// Parts of names of maps of heights, the most exact first.
 const HEIGHT: [&str; 7] = [
-    "height",
-    "heightmap",
     "displacement",
     "disp",
+    "height",
+    "heightmap",
+    "parallax",
     "depth",
     "bump",
-    "parallax",
 ];
 const NORMAL: [&str; 5] = ["normal", "normals", "normalmap", "nor", "nrm"];
 const NORMAL_GL: [&str; 3] = ["normalgl", "gl", "opengl"];
@@ -32,6 +33,22 @@ const COLOR: [&str; 9] = [
     "diff",
     "col",
     "base",
+];
+
+/// Parts of names of maps that say nothing of heights.
+const OTHERS: [&str; 12] = [
+    "roughness",
+    "rough",
+    "gloss",
+    "glossiness",
+    "ao",
+    "occlusion",
+    "metallic",
+    "metalness",
+    "specular",
+    "opacity",
+    "arm",
+    "orm",
 ];
 
 /// A material's pictures.
@@ -55,11 +72,23 @@ impl Material {
     /// [`Fault`] for a folder that cannot be read, or that has neither heights nor normals.
     pub fn of(folder: &Path) -> Result<Self, Fault> {
         let mut files = entries(folder)?;
+        // As Poly Haven packs them.
+        let inner = folder.join("textures");
+        if !files.iter().any(|file| rank(file).is_some()) && inner.is_dir() {
+            return Self::of(&inner);
+        }
+        let has_exr = files.iter().any(|file| {
+            file.extension()
+                .is_some_and(|e| e.eq_ignore_ascii_case("exr"))
+        });
         files.retain(|file| rank(file).is_some());
         files.sort_by_key(|file| (rank(file), file.clone()));
         let named = |names: &[&str]| {
-            let fits = |file: &&PathBuf| words(file).iter().any(|word| names.contains(&&**word));
-            files.iter().find(fits).cloned()
+            let with = |name: &&str| {
+                let fits = |file: &&PathBuf| words(file).iter().any(|word| word == name);
+                files.iter().find(fits)
+            };
+            names.iter().find_map(with).cloned()
         };
         let normals = |convention: &[&str]| {
             let of = |file: &&PathBuf| {
@@ -82,11 +111,20 @@ impl Material {
             convention,
             color: named(&COLOR),
         };
+        let names: BTreeSet<String> = material.files().map(|file| name_of(file)).collect();
+        if names.len() > 1 {
+            let what = format!("its pictures are of several materials: {names:?}");
+            return Err(Fault::new(what, "give each a folder of its own").at(folder));
+        }
         if material.height.is_none() && material.normal.is_none() {
             let seen = match files.len() {
                 0 => "no PNG, TIFF or JPEG".to_owned(),
                 count => format!("none of its {count} pictures is named as heights or normals"),
             };
+            if has_exr {
+                let what = "its heights may be in an EXR, which is not read";
+                return Err(Fault::new(what, "convert it to a TIFF of floating point").at(folder));
+            }
             let remedy = "name them as material libraries do, such as oak_height.png and oak_normal_gl.png, or give one picture";
             return Err(Fault::new(seen, remedy).at(folder));
         }
@@ -112,11 +150,14 @@ pub fn all(folder: &Path) -> Result<Vec<PathBuf>, Fault> {
     }
     let mut paths = entries(folder)?;
     paths.retain(|path| path.is_dir() || rank(path).is_some());
-    let is_material = |found: &Material| found.normal.is_some() || found.color.is_some();
-    if !paths.iter().any(|path| path.is_dir())
-        && Material::of(folder).is_ok_and(|m| is_material(&m))
-    {
-        return Ok(vec![folder.to_owned()]);
+    let has = |names: &[&str]| {
+        let named = |path: &PathBuf| words(path).iter().any(|word| names.contains(&&**word));
+        paths.iter().any(named)
+    };
+    let is_material =
+        (has(&HEIGHT) || has(&NORMAL)) && (has(&NORMAL) || has(&COLOR) || has(&OTHERS));
+    if is_material && !paths.iter().any(|path| path.is_dir()) {
+        return Material::of(folder).map(|_| vec![folder.to_owned()]);
     }
     if paths.is_empty() {
         let remedy =
@@ -124,6 +165,15 @@ pub fn all(folder: &Path) -> Result<Vec<PathBuf>, Fault> {
         return Err(Fault::new("no PNG, TIFF or JPEG, and no folder", remedy).at(folder));
     }
     paths.sort();
+    let same = |pair: &&[PathBuf]| pair[0].file_stem() == pair[1].file_stem();
+    if let Some([one, other]) = paths.windows(2).find(same) {
+        let what = format!(
+            "{} and {} would have one name",
+            one.display(),
+            other.display()
+        );
+        return Err(Fault::new(what, "rename one of them, or move it elsewhere").at(folder));
+    }
     Ok(paths)
 }
 
@@ -151,6 +201,20 @@ fn entries(folder: &Path) -> Result<Vec<PathBuf>, Fault> {
 fn rank(file: &Path) -> Option<usize> {
     let ending = file.extension()?.to_str()?.to_ascii_lowercase();
     ENDINGS.iter().position(|known| *known == ending)
+}
+
+/// The words before the first that tells what a picture shows.
+fn name_of(file: &Path) -> String {
+    let all = words(file);
+    // The words by themselves are followed by every two of them.
+    let (single, pairs) = all.split_at(all.len().div_ceil(2));
+    let known = |word: &String| {
+        let lists: [&[&str]; 4] = [&HEIGHT, &NORMAL, &COLOR, &OTHERS];
+        lists.iter().any(|list| list.contains(&&**word))
+    };
+    let is_known = |at: &usize| known(&single[*at]) || pairs.get(*at).is_some_and(known);
+    let first = (0..single.len()).find(is_known).unwrap_or(single.len());
+    single[..first].concat()
 }
 
 /// The words of a file's name: `Planks01_Base-ColorGL.png` has planks01, base, color, gl, and every two of them joined.
@@ -244,6 +308,19 @@ mod tests {
         let bare = folder.path().join("bare");
         fs::create_dir(&bare).unwrap();
         fs::write(bare.join("photo.jpg"), "").unwrap();
+        let mixed = folder.path().join("mixed");
+        fs::create_dir(&mixed).unwrap();
+        for file in ["oak_bump.png", "oak_height.png", "stone_normal_gl.png"] {
+            fs::write(mixed.join(file), "").unwrap();
+        }
+        let fault = Material::of(&mixed).unwrap_err().to_string();
+        assert!(
+            fault.contains("several materials: {\"oak\", \"stone\"}"),
+            "{fault}"
+        );
+        fs::remove_file(mixed.join("stone_normal_gl.png")).unwrap();
+        let heights = Material::of(&mixed).unwrap().height;
+        assert_eq!(heights, Some(mixed.join("oak_height.png")));
         assert!(
             Material::of(&bare)
                 .unwrap_err()

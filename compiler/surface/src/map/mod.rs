@@ -93,10 +93,8 @@ impl Pictures {
             let what = "there is no picture of heights or normals";
             return Err(Fault::new(what, "give a height map or a normal map"));
         };
-        let (columns, rows) = (raster.width, raster.height());
-        if let Some(other) = normal.filter(|other| [other.width, other.height()] != [columns, rows])
-        {
-            let (x, y) = (other.width, other.height());
+        if let Some(other) = normal.filter(|other| other.whole != raster.whole) {
+            let ([columns, rows], [x, y]) = (raster.whole, other.whole);
             let what = format!("heights have {columns} × {rows} pixels, normals {x} × {y}");
             return Err(Fault::new(what, "scale both to the same size"));
         }
@@ -131,7 +129,7 @@ impl Pictures {
         if height.is_some() && grey::skewness(&field) > CRESTED {
             notes.push("narrow crests rise from a wide ground; if the map shows depths, state a negative --depth-mm".into());
         }
-        let whole_mm = [columns as f64 * pitch_mm[0], rows as f64 * pitch_mm[1]];
+        let whole_mm = [0, 1].map(|axis| raster.whole[axis] as f64 * pitch_mm[axis]);
         let field = field.bounded();
         let [x, y] = [field.width(), field.height()];
         let kept_mm = [
@@ -145,7 +143,7 @@ impl Pictures {
             field,
             has_depth,
             is_profile: false,
-            pixels: [columns, rows],
+            pixels: raster.whole,
             notes,
         })
     }
@@ -167,10 +165,19 @@ impl Pictures {
         let points = raster.width * raster.height();
         let flat =
             HeightField::new(raster.width, pitch_mm, vec![0.0; points]).ok_or_else(unheld)?;
-        let (field, convention, is_clear) = normal_map::heights(raster, &flat, self.convention);
+        let (field, convention, found) = normal_map::heights(raster, &flat, self.convention);
+        if let (Some(stated), Some(found)) = (self.convention, found)
+            && stated != found
+        {
+            notes.push(format!(
+                "green is taken as `--normal {}`, though with {} the slopes would belong to a surface",
+                stated.name(),
+                found.name()
+            ));
+        }
         if self.convention.is_none() {
             let name = convention.name();
-            notes.push(match is_clear {
+            notes.push(match found.is_some() {
                 true => format!("green is taken as `--normal {name}`, for with it the slopes belong to a surface"),
                 false => format!("green is taken as `--normal {name}`; the picture does not tell"),
             });
@@ -209,8 +216,9 @@ impl Size {
             return Err(Fault::new(what, "give a larger map"));
         }
         let width_mm = self.width_mm.ok_or_else(no_width)?;
-        let pitch_mm = width_mm / columns as f64;
-        fine_enough(pitch_mm.max(pitch_mm * raster.aspect), width_mm, columns)?;
+        let whole = raster.whole[0];
+        let pitch_mm = width_mm / whole as f64;
+        fine_enough(pitch_mm.max(pitch_mm * raster.aspect), width_mm, whole)?;
         Ok([pitch_mm, pitch_mm * raster.aspect])
     }
 }
@@ -251,6 +259,9 @@ fn by_heights(
     notes: &mut Vec<String>,
 ) -> Result<HeightField, Fault> {
     let samples = grey::grey(raster)?;
+    if raster.largest.is_none() {
+        grey::without_marks(&samples)?;
+    }
     let scale_um = 1e3
         * match (depth_mm, raster.largest) {
             (Some(depth_mm), Some(_)) => depth_mm,
@@ -274,9 +285,18 @@ fn by_heights(
         return Ok(field);
     };
     let step_um = (step * scale_um).abs();
+    let finer = match raster.largest {
+        Some(255) => "; 16 bits keep fine relief",
+        _ => "",
+    };
     notes.push(match depth_mm {
-        Some(_) => format!("heights are stored in steps of {step_um:.3} µm, whose noise was filtered out; 16 bits keep fine relief"),
-        None => format!("heights are stored in {:.0} steps, whose noise was filtered out; 16 bits keep fine relief", 1.0 / step),
+        Some(_) => format!(
+            "heights are stored in steps of {step_um:.3} µm, whose noise was filtered out{finer}"
+        ),
+        None => format!(
+            "heights are stored in {:.0} steps, whose noise was filtered out{finer}",
+            1.0 / step
+        ),
     });
     Ok(field.smoothed(step_um))
 }

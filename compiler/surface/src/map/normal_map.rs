@@ -67,13 +67,13 @@ fn slopes(raster: &Raster) -> [Plane; 2] {
     })
 }
 
-/// The heights of a normal map on the points of `field`, µm, and the convention, stated or found: slopes of a surface have no
-/// curl (Frankot and Chellappa, 1988).
+/// The heights of a normal map on the points of `field`, µm, the convention that was taken, and that which the slopes show,
+/// if they do: those of a surface have no curl (Frankot and Chellappa, 1988).
 pub(super) fn heights(
     raster: &Raster,
     field: &HeightField,
     stated: Option<Convention>,
-) -> (HeightField, Convention, bool) {
+) -> (HeightField, Convention, Option<Convention>) {
     let [mut in_x, mut in_y] = slopes(raster);
     let per_mm = field.step_per_mm();
     let wave_vector = |[x, y]: [f64; 2]| [x * per_mm[0], y * per_mm[1]];
@@ -106,5 +106,9 @@ pub(super) fn heights(
         };
     }
     let heights = in_x.inverse().into_iter().map(|h| h as f32).collect();
-    (field.with_heights(heights), convention, is_clear)
+    (
+        field.with_heights(heights),
+        convention,
+        is_clear.then_some(found),
+    )
 }

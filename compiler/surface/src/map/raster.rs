@@ -4,7 +4,7 @@ use asperity_io::diagnostic::Fault;
 use std::io::Cursor;
 use tiff::{
     ColorType,
-    decoder::{Decoder, DecodingResult, Limits},
+    decoder::{Decoder, DecodingResult, Limits, ifd::Value},
     tags::Tag,
 };
 use zune_jpeg::{
@@ -24,6 +24,8 @@ const AS_GREY: &str = "save the heights as a greyscale PNG or TIFF of 16 bits";
 pub struct Raster {
     /// Pixels in a row.
     pub width: usize,
+    /// Columns and rows of the file, of which this may be the middle.
+    pub whole: [usize; 2],
     /// Numbers in a pixel: 1, or 3 for red, green and blue.
     pub channels: usize,
     /// Row by row from the top: whole numbers as parts of the largest, others as they are.
@@ -55,6 +57,27 @@ impl Raster {
         }
     }
 
+    /// The middle, at most so many pixels wide and high.
+    #[must_use]
+    pub fn middle(self, most: [usize; 2]) -> Self {
+        let (width, height) = (self.width.min(most[0]), self.height().min(most[1]));
+        if [width, height] == [self.width, self.height()] {
+            return self;
+        }
+        let (left, top) = ((self.width - width) / 2, (self.height() - height) / 2);
+        let rows = self.samples.chunks_exact(self.channels * self.width);
+        let kept = self.channels * left..self.channels * (left + width);
+        let samples = rows
+            .skip(top)
+            .take(height)
+            .flat_map(|row| &row[kept.clone()]);
+        Self {
+            width,
+            samples: samples.copied().collect(),
+            ..self
+        }
+    }
+
     /// Rows.
     #[must_use]
     pub fn height(&self) -> usize {
@@ -69,6 +92,15 @@ fn bounded(width: u32, height: u32) -> Result<(), Fault> {
     let what = format!("{width} × {height} pixels; at most 8192 × 8192 are read");
     let remedy = "crop it, and state the width of what is left; 2048 × 2048 pixels are enough";
     Err(Fault::new(what, remedy))
+}
+
+/// Height of a pixel over its width, unless the file states what no pixel has.
+fn told(aspect: f64) -> f64 {
+    if (0.1..=10.0).contains(&aspect) {
+        aspect
+    } else {
+        1.0
+    }
 }
 
 fn palette() -> Fault {
@@ -116,7 +148,7 @@ fn png(bytes: &[u8]) -> Result<Raster, Fault> {
             .gama_chunk
             .is_some_and(|gamma| gamma.into_value() < 0.9);
     let aspect = info.pixel_dims.map_or(1.0, |per_unit| {
-        f64::from(per_unit.xppu.max(1)) / f64::from(per_unit.yppu.max(1))
+        told(f64::from(per_unit.xppu) / f64::from(per_unit.yppu))
     });
     let mut packed = vec![0; reader.output_buffer_size().unwrap_or(0)];
     let frame = reader.next_frame(&mut packed).map_err(damaged)?;
@@ -137,6 +169,7 @@ fn png(bytes: &[u8]) -> Result<Raster, Fault> {
     };
     Ok(Raster {
         width: width as usize,
+        whole: [width as usize, height as usize],
         channels,
         samples,
         largest: Some(largest),
@@ -147,8 +180,12 @@ fn png(bytes: &[u8]) -> Result<Raster, Fault> {
 }
 
 fn jpeg(bytes: &[u8]) -> Result<Raster, Fault> {
-    let damaged = |error| Fault::new(format!("the JPEG cannot be read: {error}"), AGAIN);
-    let mut decoder = JpegDecoder::new(ZCursor::new(bytes));
+    let damaged = |error| Fault::new(format!("a damaged JPEG: {error}"), AGAIN);
+    let bounds = DecoderOptions::default()
+        .set_strict_mode(true)
+        .set_max_width(usize::from(u16::MAX))
+        .set_max_height(usize::from(u16::MAX));
+    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), bounds);
     decoder.decode_headers().map_err(damaged)?;
     let info = decoder
         .info()
@@ -156,10 +193,11 @@ fn jpeg(bytes: &[u8]) -> Result<Raster, Fault> {
     bounded(info.width.into(), info.height.into())?;
     let channels = if info.components == 1 { 1 } else { 3 };
     let colors = [ColorSpace::Luma, ColorSpace::RGB][channels / 3];
-    decoder.set_options(DecoderOptions::default().jpeg_set_out_colorspace(colors));
+    decoder.set_options(bounds.jpeg_set_out_colorspace(colors));
     let packed = decoder.decode().map_err(damaged)?;
     Ok(Raster {
         width: info.width.into(),
+        whole: [info.width.into(), info.height.into()],
         channels,
         samples: packed.iter().map(|byte| f32::from(*byte) / 255.0).collect(),
         largest: Some(255),
@@ -179,21 +217,31 @@ fn tiff(bytes: &[u8]) -> Result<Raster, Fault> {
     let (width, height) = decoder.dimensions().map_err(damaged)?;
     bounded(width, height)?;
     let channels = match decoder.colortype().map_err(damaged)? {
-        ColorType::Gray(_) => 1,
-        ColorType::GrayA(_) => 2,
-        ColorType::RGB(_) => 3,
-        ColorType::RGBA(_) => 4,
+        ColorType::Gray(8..) => 1,
+        ColorType::GrayA(8..) => 2,
+        ColorType::RGB(8..) => 3,
+        ColorType::RGBA(8..) => 4,
         ColorType::Palette(_) => return Err(palette()),
+        ColorType::Gray(bits) | ColorType::GrayA(bits) | ColorType::RGB(bits) => {
+            let what = format!("a TIFF of {bits} bits a number, which is not read");
+            return Err(Fault::new(what, AS_GREY));
+        }
         other => {
             let what = format!("a TIFF of colours ({other:?}), not of heights");
             return Err(Fault::new(what, AS_GREY));
         }
     };
-    let mut per_unit = |tag| decoder.find_tag(tag).ok().flatten()?.into_f64().ok();
-    let per_unit =
-        [Tag::XResolution, Tag::YResolution].map(|tag| per_unit(tag).filter(|n| *n > 0.0));
+    let mut tag = |tag| decoder.find_tag(tag).ok().flatten();
+    let per_unit = [Tag::XResolution, Tag::YResolution].map(|resolution| match tag(resolution)? {
+        Value::Rational(part, of) if part > 0 && of > 0 => Some(f64::from(part) / f64::from(of)),
+        _ => None,
+    });
+    let hole = match tag(Tag::GdalNodata) {
+        Some(Value::Ascii(text)) => text.trim_matches(['\0', ' ']).parse::<f64>().ok(),
+        _ => None,
+    };
     let aspect = match per_unit {
-        [Some(x), Some(y)] => x / y,
+        [Some(x), Some(y)] => told(x / y),
         _ => 1.0,
     };
     let (samples, largest): (Vec<f32>, _) = match decoder.read_image().map_err(damaged)? {
@@ -207,16 +255,22 @@ fn tiff(bytes: &[u8]) -> Result<Raster, Fault> {
         DecodingResult::F32(all) => (all, None),
         DecodingResult::F64(all) => (all.iter().map(|n| *n as f32).collect(), None),
         _ => {
-            let what = "a TIFF of numbers other than 8, 16 or 32 bits, or floats of 32 or 64";
+            let what = "a TIFF of numbers of a kind that is not read: those are unsigned of 8, 16 or 32 bits, signed of 16, and floats of 32 or 64";
             return Err(Fault::new(what, AS_GREY));
         }
     };
-    let (samples, channels) = match channels {
+    let (mut samples, channels) = match channels {
         2 | 4 => opaque(samples, channels)?,
         _ => (samples, channels),
     };
+    if let (None, Some(hole)) = (largest, hole) {
+        // What stands for no height is none.
+        let holes = samples.iter_mut().filter(|sample| **sample == hole as f32);
+        holes.for_each(|sample| *sample = f32::NAN);
+    }
     Ok(Raster {
         width: width as usize,
+        whole: [width as usize, height as usize],
         channels,
         samples,
         largest,
