@@ -127,7 +127,7 @@ impl<'a> Stroked<'a> {
             SPREAD.map(|factor| (factor * centre_mm_s).clamp(SPEEDS_MM_S[0], MAX_SPEED_MM_S));
         let ratios = direction::fit(&speeds, power(0), power(1));
         let felt_db = FELT.0 + CHANCE_DB / self.contact.points().sqrt();
-        let turned = !is_profile && ratios.speed.max(1.0 / ratios.speed) > FELT.1;
+        let turned = ratios.speed.max(1.0 / ratios.speed) > FELT.1;
         let sounds = level_db(&across) > SILENT_DB;
         let is_directed = sounds && !is_profile && (anisotropy_db > felt_db || turned);
         let axis = across_rad + FRAC_PI_2;
