@@ -2,4 +2,6 @@
 //! its line here; `.ci/check-tests` fails without it.
 
 mod maps;
+mod normals;
+mod profiles;
 mod strokes;
