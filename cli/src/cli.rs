@@ -10,7 +10,7 @@ mod views;
 
 pub(crate) use groups::{PreviewOptions, ReportOptions};
 pub(crate) use import::{
-    Import, ImportHatt, ImportModel, ImportRecording, ImportSurface, RecordCheck,
+    Import, ImportHatt, ImportModel, ImportRecording, ImportSurface, MeasuredTexture, RecordCheck,
 };
 pub(crate) use interchange::{Export, ImportEffects};
 pub(crate) use library::{Build, Diff, Extract, List, Merge, Rename, Split};

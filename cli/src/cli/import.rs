@@ -49,6 +49,30 @@ pub(crate) enum Import {
     Hjif(ImportEffects),
 }
 
+/// Options of what is measured and becomes one texture.
+#[derive(Debug, Args)]
+pub(crate) struct MeasuredTexture {
+    /// Model detail to keep: everything, as little as stays within 0.5 dB, or this AR order
+    #[arg(long, default_value = "auto", value_name = "full|auto|ORDER")]
+    pub(crate) fidelity: Fidelity,
+    /// Sample rate of the AR models, Hz; use the rate of your servo loop [default: 1000]
+    #[arg(long, value_name = "HZ")]
+    pub(crate) rate: Option<f64>,
+    #[command(flatten)]
+    pub(crate) preview: PreviewOptions,
+    /// Plot what was found on one sheet
+    #[arg(long, value_name = "FILE.png")]
+    pub(crate) plot: Option<PathBuf>,
+    /// Write the whole report as JSON
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) report: Option<PathBuf>,
+    /// Also write the unreduced texture as JSON, which `asperity import model` reads
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) emit_model: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) reporting: ReportOptions,
+}
+
 #[derive(Debug, Args)]
 #[command(
     after_help = "The recording is checked and aligned, cut into segments by speed and \
@@ -67,12 +91,6 @@ pub(crate) struct ImportRecording {
     /// The asset to write; `-` is standard output
     #[arg(short, long)]
     pub(crate) output: PathBuf,
-    /// Model detail to keep: everything, as little as stays within 0.5 dB, or this AR order
-    #[arg(long, default_value = "auto", value_name = "full|auto|ORDER")]
-    pub(crate) fidelity: Fidelity,
-    /// Sample rate of the AR models, Hz; use the rate of your servo loop [default: 1000]
-    #[arg(long, value_name = "HZ")]
-    pub(crate) rate: Option<f64>,
     /// Import even if the check found faults
     #[arg(long)]
     pub(crate) force: bool,
@@ -80,18 +98,7 @@ pub(crate) struct ImportRecording {
     #[arg(long, value_name = "DIR")]
     pub(crate) model: Option<PathBuf>,
     #[command(flatten)]
-    pub(crate) preview: PreviewOptions,
-    /// Plot every step of the import on one sheet
-    #[arg(long, value_name = "FILE.png")]
-    pub(crate) plot: Option<PathBuf>,
-    /// Write the report of every step as JSON
-    #[arg(long, value_name = "FILE.json")]
-    pub(crate) report: Option<PathBuf>,
-    /// Also write the unreduced texture as JSON, which `asperity import model` reads
-    #[arg(long, value_name = "FILE.json")]
-    pub(crate) emit_model: Option<PathBuf>,
-    #[command(flatten)]
-    pub(crate) reporting: ReportOptions,
+    pub(crate) texture: MeasuredTexture,
 }
 
 #[derive(Debug, Args)]
@@ -137,27 +144,10 @@ pub(crate) struct ImportSurface {
     /// Name of the texture [default: that of the file]
     #[arg(long)]
     pub(crate) name: Option<String>,
-    /// Model detail to keep: everything, as little as stays within 0.5 dB, or this AR order
-    #[arg(long, default_value = "auto", value_name = "full|auto|ORDER")]
-    pub(crate) fidelity: Fidelity,
-    /// Sample rate of the AR models, Hz; use the rate of your servo loop [default: 1000]
-    #[arg(long, value_name = "HZ")]
-    pub(crate) rate: Option<f64>,
     #[command(flatten)]
     pub(crate) inference: Inference,
     #[command(flatten)]
-    pub(crate) preview: PreviewOptions,
-    /// Plot the map, its axis and what strokes meet on one sheet
-    #[arg(long, value_name = "FILE.png")]
-    pub(crate) plot: Option<PathBuf>,
-    /// Write the report as JSON
-    #[arg(long, value_name = "FILE.json")]
-    pub(crate) report: Option<PathBuf>,
-    /// Also write the unreduced texture as JSON, which `asperity import model` reads
-    #[arg(long, value_name = "FILE.json")]
-    pub(crate) emit_model: Option<PathBuf>,
-    #[command(flatten)]
-    pub(crate) reporting: ReportOptions,
+    pub(crate) texture: MeasuredTexture,
 }
 
 #[derive(Debug, Args)]

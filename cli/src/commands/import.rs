@@ -5,7 +5,7 @@ use super::{
     many_textures::Target,
     one_texture::{Job, RequestedOutputs, request},
 };
-use crate::cli::{ImportEffects, ImportModel, ImportRecording, ImportSurface};
+use crate::cli::{ImportEffects, ImportModel, ImportRecording, ImportSurface, MeasuredTexture};
 use asperity::{
     library::model_files,
     pipeline::Request,
@@ -20,6 +20,7 @@ use asperity::{
 };
 use asperity_console::Console;
 use asperity_io::diagnostic::{Failures, Fault, one};
+use std::path::Path;
 
 pub(crate) fn model(args: &ImportModel, console: Console) -> Result<(), Failures> {
     let source = ModelFile {
@@ -64,23 +65,32 @@ pub(crate) fn recording(args: &ImportRecording, console: Console) -> Result<(), 
     };
     let mut inputs = source.inputs();
     inputs.extend(model_files(args.model.as_deref()));
-    let requested = RequestedOutputs {
-        emit_model: args.emit_model.as_deref(),
-        plot: args.plot.as_deref(),
-        report: args.report.as_deref(),
-        ..RequestedOutputs::of(&args.output, args.reporting)
-    };
-    let request = request(args.fidelity, args.rate, &args.preview);
-    let job = Job::open(requested, &inputs, console)?;
+    let job = Job::open(args.texture.outputs(&args.output), &inputs, console)?;
     let model = inference::completer(args.model.as_deref())?;
     let tools = Tools {
         model: Some(&model),
         ..Tools::default()
     };
-    job.run(&source, &request, &tools)
+    job.run(&source, &args.texture.request(), &tools)
+}
+
+impl MeasuredTexture {
+    fn outputs<'a>(&'a self, output: &'a Path) -> RequestedOutputs<'a> {
+        RequestedOutputs {
+            emit_model: self.emit_model.as_deref(),
+            plot: self.plot.as_deref(),
+            report: self.report.as_deref(),
+            ..RequestedOutputs::of(output, self.reporting)
+        }
+    }
+
+    fn request(&self) -> Request {
+        request(self.fidelity, self.rate, &self.preview)
+    }
 }
 
 pub(crate) fn surface(args: &ImportSurface, console: Console) -> Result<(), Failures> {
+    let options = &args.texture;
     if let Some(like) = &args.like {
         prompt::check(like).map_err(one)?;
     }
@@ -101,8 +111,9 @@ pub(crate) fn surface(args: &ImportSurface, console: Console) -> Result<(), Fail
     let many = extension.eq_ignore_ascii_case("aspl") || names_folder;
     let single = [
         ("--name", args.name.is_some()),
-        ("--plot", args.plot.is_some()),
-        ("--report", args.report.is_some()),
+        ("--plot", options.plot.is_some()),
+        ("--report", options.report.is_some()),
+        ("--json", options.reporting.json),
     ];
     if let (true, Some((option, _))) = (many, single.iter().find(|(_, stated)| *stated)) {
         let what = format!(
@@ -124,23 +135,17 @@ pub(crate) fn surface(args: &ImportSurface, console: Console) -> Result<(), Fail
     inputs.extend(setup.files());
     let request = Request {
         name: args.name.clone().filter(|_| !many),
-        ..request(args.fidelity, args.rate, &args.preview)
+        ..options.request()
     };
     if many {
-        let emit_model = args.emit_model.as_deref();
+        let emit_model = options.emit_model.as_deref();
         let target = Target::open(&args.path, &args.output, emit_model, sources.len(), &inputs)?;
         let prompt_compiler = setup.prompt_compiler()?;
         let tools = Tools::of(&prompt_compiler);
-        let context = (&inputs[..], args.reporting.timings, console);
+        let context = (&inputs[..], options.reporting.timings, console);
         return target.import(&sources, &request, &tools, |_| (), context);
     }
-    let requested = RequestedOutputs {
-        emit_model: args.emit_model.as_deref(),
-        plot: args.plot.as_deref(),
-        report: args.report.as_deref(),
-        ..RequestedOutputs::of(&args.output, args.reporting)
-    };
-    let job = Job::open(requested, &inputs, console)?;
+    let job = Job::open(options.outputs(&args.output), &inputs, console)?;
     let prompt_compiler = setup.prompt_compiler()?;
     job.run(&sources[0], &request, &Tools::of(&prompt_compiler))
 }

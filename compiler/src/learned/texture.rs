@@ -25,7 +25,7 @@ const LARGEST_GAIN: f64 = 8.0;
 const WIDEST_RANGE: f64 = 2.5e4;
 /// Range of the level of a bin, dB re 1 m/s², whatever a decoder says. At the default gain, 20 dB
 /// are 0.5 N RMS.
-const LEVEL_RANGE_DB: (f64, f64) = (-60.0, 20.0);
+pub(crate) const LEVEL_RANGE_DB: (f64, f64) = (-60.0, 20.0);
 /// Largest level of an edge model, dB re 1 m/s². Levels grow towards fast and hard strokes with
 /// the powers that the bins show, and those of a far latent may be anything.
 const LARGEST_EDGE_DB: f64 = 32.0;

@@ -47,9 +47,7 @@ impl Tip {
     /// ball where the surface is less steep than about 30°.
     fn rolling(&self, field: &HeightField) -> Vec<f32> {
         let heights = field.heights_um();
-        let (low, high) = heights.iter().fold((f32::MAX, f32::MIN), |(low, high), h| {
-            (low.min(*h), high.max(*h))
-        });
+        let (low, high) = field.ends_um();
         let sags = field
             .pitch_mm()
             .map(|pitch_mm| self.sags_um(pitch_mm, high - low));
@@ -107,9 +105,8 @@ impl Contact {
     /// A contact with a levelled field.
     #[must_use]
     pub fn with(field: &HeightField) -> Self {
-        let mut heights: Vec<f64> = field.heights_um().iter().map(|h| f64::from(*h)).collect();
         Self {
-            plane: Plane::of(field.width(), &mut heights),
+            plane: field.plane(),
             field: field.clone(),
         }
     }
@@ -137,8 +134,7 @@ impl Contact {
             let k_per_mm = libm::hypot(x * per_mm[0], y * per_mm[1]);
             *wave *= disc_power(k_per_mm, contact_mm).sqrt();
         }
-        let averaged = plane.inverse().into_iter().map(|h| h as f32).collect();
-        let averaged = self.field.with_heights(averaged);
+        let averaged = self.field.of_plane(plane);
         let indentation_um = 1e3 * contact_mm * contact_mm / (2.0 * tip.radius_mm);
         let sunk_um = (SINKS * indentation_um) as f32;
         let mut followed = tip.rolling(&averaged);
@@ -156,14 +152,4 @@ pub fn disc_power(k_per_mm: f64, radius_mm: f64) -> f64 {
     let x = TAU * k_per_mm * radius_mm;
     let square = x * x;
     1.0 / (1.0 + 0.5 * square + 0.62 * square * square * square).sqrt()
-}
-
-/// Returns the power transmission of the contact that strokes over measured materials are fitted with, on heights: `(1 +
-/// (2πkw)²)^(−3/2)` with the contact's length w, mm, at a spatial frequency k, 1/mm. The transform of Hertz's pressure,
-/// √(1 − x²), falls as k^(−3/2).
-#[must_use]
-pub fn fitted_power(k_per_mm: f64, contact_mm: f64) -> f64 {
-    let x = TAU * k_per_mm * contact_mm;
-    let squared = 1.0 + x * x;
-    1.0 / (squared * squared.sqrt())
 }

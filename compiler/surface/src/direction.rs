@@ -2,8 +2,6 @@
 
 use crate::vibration::{Spectrum, bands_db};
 
-/// Speeds of the strokes that materials are compared in, mm/s.
-pub const SPEEDS_MM_S: [f64; 3] = [60.0, 120.0, 200.0];
 /// Levels so far below the loudest third octave across the axis count as silent, dB.
 pub const SILENT_DB: f64 = 30.0;
 

@@ -1,8 +1,10 @@
 //! A field of heights on a rectangular grid.
 
+use crate::plane::Plane;
+
 /// Fewest and most points along a side.
 pub const SIDE: (usize, usize) = (16, 2048);
-/// Points finer than this tell nothing more: a contact averages over ten times as much, mm.
+/// Points finer than this tell nothing more, for a contact with all but the hardest averages over more, mm.
 const FINEST_MM: f64 = 0.02;
 
 /// Heights in rows from the top of the surface down, each from left to right.
@@ -68,9 +70,27 @@ impl HeightField {
     /// A field of the same points with other heights, µm.
     pub(crate) fn with_heights(&self, heights_um: Vec<f32>) -> Self {
         Self {
+            width: self.width,
+            pitch_mm: self.pitch_mm,
             heights_um,
-            ..self.clone()
         }
+    }
+
+    /// The lowest and the highest of the heights, µm.
+    #[must_use]
+    pub fn ends_um(&self) -> (f32, f32) {
+        ends(&self.heights_um)
+    }
+
+    /// The transform of the heights.
+    pub(crate) fn plane(&self) -> Plane {
+        let mut heights: Vec<f64> = self.heights_um.iter().map(|h| f64::from(*h)).collect();
+        Plane::of(self.width, &mut heights)
+    }
+
+    /// The field of the same points that a transform of heights, µm, stands for.
+    pub(crate) fn of_plane(&self, plane: Plane) -> Self {
+        self.with_heights(plane.inverse().into_iter().map(|h| h as f32).collect())
     }
 
     /// The field so many times as high.
@@ -168,4 +188,10 @@ impl HeightField {
             heights_um,
         }
     }
+}
+
+/// The least and the greatest of numbers.
+pub(crate) fn ends(numbers: &[f32]) -> (f32, f32) {
+    let wider = |(low, high): (f32, f32), n: &f32| (low.min(*n), high.max(*n));
+    numbers.iter().fold((f32::MAX, f32::MIN), wider)
 }

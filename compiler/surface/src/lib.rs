@@ -7,7 +7,7 @@
 //! 5. [`direction`]: the ratios by which strokes along an axis follow from those across it.
 //! 6. [`vibration`]: sampled power spectra, and the AR model of one.
 //!
-//! The corpus's generator shares [`stylus`] and [`vibration`] with the import of surfaces; its contact is the fitted one.
+//! The corpus's generator shares [`stylus`] and [`vibration`] with the import of surfaces; its contact is fitted to strokes.
 //!
 //! ```
 //! use asperity_surface::{

@@ -1,6 +1,6 @@
 //! Smoothing of heights that are stored in coarse steps.
 
-use crate::{heights::HeightField, plane::Plane};
+use crate::heights::HeightField;
 
 /// Wave numbers over which the power is averaged, as a part of the largest.
 const RINGS: usize = 256;
@@ -11,8 +11,7 @@ impl HeightField {
     #[must_use]
     pub fn smoothed(&self, step_um: f64) -> Self {
         let (width, height) = (self.width(), self.height());
-        let mut heights: Vec<f64> = self.heights_um().iter().map(|h| f64::from(*h)).collect();
-        let mut plane = Plane::of(width, &mut heights);
+        let mut plane = self.plane();
         let per_mm = self.step_per_mm();
         let end = (0.5 * width as f64 * per_mm[0]).hypot(0.5 * height as f64 * per_mm[1]);
         let ring = |[x, y]: [f64; 2]| {
@@ -30,6 +29,6 @@ impl HeightField {
             let (power, count) = rings[ring(periods)];
             *wave *= (1.0 - noise * count / power).max(0.0);
         }
-        self.with_heights(plane.inverse().into_iter().map(|h| h as f32).collect())
+        self.of_plane(plane)
     }
 }

@@ -6,11 +6,11 @@ use asperity_surface::{
     direction,
     stroke::Strokes,
     stylus::Support,
-    vibration::{self, ORDER, POINTS, SAMPLE_RATE_HZ, Spectrum},
+    vibration::{self, FLOOR, ORDER, POINTS, SAMPLE_RATE_HZ, Spectrum},
     wave_spectrum::{LineSpectrum, WaveSpectrum},
 };
 use asperity_texture::model::{Direction, ModelGrid};
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::FRAC_PI_2;
 
 /// Speeds, mm/s, and forces, N, of the models.
 const SPEEDS_MM_S: [f64; 16] = [
@@ -23,16 +23,11 @@ const MAX_FORCE_N: f64 = 3.2;
 /// The stroke by which levels and direction are said, mm/s and N, and which of the forces it has.
 pub(super) const STROKE: (f64, f64) = (100.0, FORCES_N[STROKED]);
 const STROKED: usize = 1;
-/// Loss factor of most that is hard.
+/// Loss factor, of which neither a map nor words say anything.
 const LOSS_FACTOR: f64 = 0.1;
-/// Level of a surface without relief, dB re 1 m/s².
-const SILENT_DB: f64 = -60.0;
-/// Largest level that a model has, dB re 1 m/s².
-const LOUDEST_DB: f64 = 20.0;
-/// Power of white noise in the vibration, as calibrated strokes have it.
-const FLOOR: f64 = 0.05;
-/// Least |1 + z⁻¹|² that is divided out; its peak is 4.
-const NYQUIST_FLOOR: f64 = 1e-4;
+/// Levels of a surface without relief, and the largest that a model has, dB re 1 m/s².
+const SILENT_DB: f64 = texture::LEVEL_RANGE_DB.0;
+const LOUDEST_DB: f64 = texture::LEVEL_RANGE_DB.1;
 /// A direction is felt from this difference of the level, dB, and this factor of the speed.
 const FELT: (f64, f64) = (1.5, 1.5);
 /// Difference of the level that noise has on a map of one point, dB; it falls with the root of their number.
@@ -222,11 +217,7 @@ fn shape(power: &Spectrum) -> [f32; ORDER] {
     if power.iter().sum::<f64>() <= 0.0 {
         return vibration::lsf(&[1.0; POINTS]);
     }
-    let mut shape = vibration::normalised(power, FLOOR);
-    for (point, value) in shape.iter_mut().enumerate() {
-        let zero = 2.0 + 2.0 * libm::cos(TAU * vibration::freq_hz(point) / SAMPLE_RATE_HZ);
-        *value /= zero.max(NYQUIST_FLOOR);
-    }
+    let shape = vibration::without_nyquist(&vibration::normalised(power, FLOOR));
     vibration::lsf(&vibration::normalised(&shape, 0.0))
 }
 

@@ -9,6 +9,7 @@ use asperity_surface::{
 
 /// Keys of a manifest.
 pub(super) const KEYS: [&str; 5] = ["width_mm", "depth_mm", "normal", "like", "tip"];
+
 /// What a map does not say of its surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {

@@ -1,16 +1,13 @@
 //! The report of an import, for machines and for people.
 
-use super::Surveyed;
+use super::{Surveyed, grid::STROKE};
 use crate::compiled::Compiled;
 use asperity_surface::stroke::LEAST_SPREAD_OCTAVES;
 use serde_json::{Value, json};
 
-/// The stroke by which the end of what was measured is said, mm/s.
-const SPEED_MM_S: f64 = 100.0;
-
 impl Surveyed {
     fn measured_to_hz(&self) -> f64 {
-        SPEED_MM_S * self.survey.measured_to_per_mm
+        STROKE.0 * self.survey.measured_to_per_mm
     }
 }
 
@@ -24,7 +21,7 @@ pub(super) fn json(found: &Surveyed, compiled: &Compiled) -> Value {
         "pitch_mm": found.pitch_mm,
         "rms_um": found.rms_um,
         "guessed_depth_mm": found.guessed_mm,
-        "modulus_mpa": found.survey.modulus_mpa,
+        "modulus_mpa": survey.modulus_mpa,
         "like": found.like,
         "nearest": found.nearest,
         "level_db": survey.level_db,

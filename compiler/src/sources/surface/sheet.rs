@@ -47,10 +47,7 @@ pub(super) fn sheet(found: &Surveyed, whole: &TextureModel) -> Result<Vec<u8>, P
 fn map(canvas: &mut Canvas, rect: Rect, found: &Surveyed) {
     let [width_mm, height_mm] = [0, 1].map(|axis| found.points[axis] as f64 * found.pitch_mm[axis]);
     let thumbnail = &found.thumbnail;
-    let (low, high) = (thumbnail.heights_um().iter())
-        .fold((f32::MAX, f32::MIN), |(low, high), h| {
-            (low.min(*h), high.max(*h))
-        });
+    let (low, high) = thumbnail.ends_um();
     let scale = ColorScale::new(ColorMap::Viridis, low.into(), high.into());
     let mut panel = Panel::new(
         rect,

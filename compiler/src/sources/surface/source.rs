@@ -44,19 +44,19 @@ use std::{
 const HARD_MPA: f64 = 1000.0;
 /// Level that heights of no stated depth are scaled to where no words say another, dB re 1 m/s².
 const USUAL_DB: f64 = 0.0;
-/// Most points along a side of the heights that are kept for a picture.
-const THUMBNAIL: usize = 256;
-/// Most pixels of a picture that are kept.
-const MOST_PIXELS: [usize; 2] = [4096; 2];
 /// Steps towards that level.
 const STEPS: usize = 3;
 /// Ranges of heights that may be guessed, mm.
 const RANGES_MM: (f64, f64) = (1e-6, 10.0);
+/// Most pixels of a picture that are kept.
+const MOST_PIXELS: [usize; 2] = [4096; 2];
+/// Most points along a side of the heights that are kept for the sheet.
+const THUMBNAIL: usize = 256;
 
 /// Maps of a surface.
 #[derive(Debug, Clone)]
 pub struct Surface {
-    /// A height map or a normal map, or a folder with the pictures of a material.
+    /// A height map, a normal map, a profile, or a folder with the pictures of a material.
     pub path: PathBuf,
     /// The rest.
     pub options: Options,
@@ -83,7 +83,7 @@ pub struct Surveyed {
     pub guessed_mm: Option<f64>,
     /// The heights, at most 256 × 256 points.
     pub thumbnail: HeightField,
-    /// The words that said it.
+    /// Words for the material.
     pub like: Option<String>,
     /// The materials that complete it where no words do, the nearest first.
     pub nearest: Vec<Nearest>,
@@ -106,7 +106,7 @@ pub const KIND: SourceKind = SourceKind {
 };
 
 impl Surface {
-    /// The pictures of the path.
+    /// The files of the path; one that is no folder stands for the heights.
     fn material(&self) -> Result<Material, Fault> {
         if self.path.is_dir() {
             return Material::of(&self.path);
@@ -346,18 +346,12 @@ impl ManifestSource for Surface {
             .number(size.width_mm.unwrap_or(f64::NAN))
             .number(size.depth_mm.unwrap_or(f64::NAN))
             .number(tip.radius_mm)
+            .number(tip.modulus_mpa)
             .text(convention.map_or("", Convention::name))
             .text(like.as_deref().unwrap_or_default());
-        let mut files = match self.path.extension().is_some_and(is_table) {
-            true => vec![self.path.clone()].into_iter(),
-            false => self
-                .material()?
-                .files()
-                .cloned()
-                .collect::<Vec<_>>()
-                .into_iter(),
-        };
-        Ok(files.try_fold(parts, |parts, file| parts.file(&file, InputKind::HeightMap))?)
+        let material = self.material()?;
+        let mut files = material.files();
+        Ok(files.try_fold(parts, |parts, file| parts.file(file, InputKind::HeightMap))?)
     }
 }
 

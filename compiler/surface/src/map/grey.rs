@@ -1,7 +1,7 @@
 //! Grey pictures of heights, and what their numbers tell.
 
 use super::Raster;
-use crate::heights::HeightField;
+use crate::heights::{HeightField, ends};
 use asperity_io::diagnostic::Fault;
 
 /// Differences of red, green and blue up to this are grey, as parts of the range.
@@ -11,6 +11,7 @@ const FEW: usize = 256;
 /// Numbers that are looked at for outliers, and how many times their range an outlier is away.
 const SAMPLED: usize = 20_000;
 const FAR: f32 = 100.0;
+const FILL: &str = "fill the holes of the scan, as its software can";
 
 /// The grey of every pixel, if all are grey.
 pub(super) fn grey(raster: &Raster) -> Result<Vec<f32>, Fault> {
@@ -30,10 +31,8 @@ pub(super) fn grey(raster: &Raster) -> Result<Vec<f32>, Fault> {
 }
 
 pub(super) fn range(samples: &[f32]) -> f32 {
-    let ends = samples.iter().fold((f32::MAX, f32::MIN), |(low, high), h| {
-        (low.min(*h), high.max(*h))
-    });
-    ends.1 - ends.0
+    let (low, high) = ends(samples);
+    high - low
 }
 
 /// The step of whole numbers that take few values; `None` for many, and for one.
@@ -83,20 +82,15 @@ pub(super) fn without_marks(samples: &[f32]) -> Result<(), Fault> {
     let part = |share: f64| some[((some.len() - 1) as f64 * share) as usize];
     let (low, high) = (part(0.1), part(0.9));
     let far = |value: f32| (value - low).abs().min((value - high).abs()) > FAR * (high - low);
-    let ends = samples.iter().fold((f32::MAX, f32::MIN), |(low, high), h| {
-        (low.min(*h), high.max(*h))
-    });
-    let mark = [ends.0, ends.1]
+    let (lowest, highest) = ends(samples);
+    let mark = [lowest, highest]
         .into_iter()
         .find(|end| far(*end) && high > low);
     match mark {
         None => Ok(()),
         Some(mark) => {
             let what = format!("its number {mark} is far from all others, as marks of holes are");
-            Err(Fault::new(
-                what,
-                "fill the holes of the scan, as its software can",
-            ))
+            Err(Fault::new(what, FILL))
         }
     }
 }
@@ -110,15 +104,15 @@ pub(super) fn finite(raster: &Raster) -> Result<(), Fault> {
             .filter(|sample| !sample.is_finite())
             .count();
         let pixel = at / raster.channels;
+        // Of the file, of which this may be the middle.
+        let left = (raster.whole[0] - raster.width) / 2;
+        let top = (raster.whole[1] - raster.height()) / 2;
         let what = format!(
             "{bad} of its numbers are no heights (NaN or infinite), the first in row {}, column {}",
-            pixel / raster.width + 1,
-            pixel % raster.width + 1
+            top + pixel / raster.width + 1,
+            left + pixel % raster.width + 1
         );
-        return Err(Fault::new(
-            what,
-            "fill the holes of the scan, as its software can",
-        ));
+        return Err(Fault::new(what, FILL));
     }
     Ok(())
 }

@@ -11,10 +11,7 @@ pub use normal_map::Convention;
 pub use profile::profile;
 pub use raster::Raster;
 
-use crate::{
-    heights::{HeightField, SIDE},
-    plane::Plane,
-};
+use crate::heights::{HeightField, SIDE};
 use asperity_io::diagnostic::Fault;
 
 /// Points further apart than this give strokes of 20 mm/s nothing above 30 Hz, mm.
@@ -89,10 +86,11 @@ impl Pictures {
     pub fn heights(&self, size: &Size) -> Result<HeightMap, Fault> {
         size.check()?;
         let (height, normal) = (self.height.as_ref(), self.normal.as_ref());
-        let Some(raster) = height.or(normal) else {
+        let none = || {
             let what = "there is no picture of heights or normals";
-            return Err(Fault::new(what, "give a height map or a normal map"));
+            Fault::new(what, "give a height map or a normal map")
         };
+        let raster = height.or(normal).ok_or_else(none)?;
         if let Some(other) = normal.filter(|other| other.whole != raster.whole) {
             let ([columns, rows], [x, y]) = (raster.whole, other.whole);
             let what = format!("heights have {columns} × {rows} pixels, normals {x} × {y}");
@@ -121,9 +119,9 @@ impl Pictures {
         };
         let has_depth = size.depth_mm.is_some() || by_normals.is_some();
         let field = match (field, by_normals) {
-            (Some(low), Some(high)) => joined(low, &high, size.depth_mm.is_some(), &mut notes),
+            (Some(low), Some(high)) => joined(&low, &high, size.depth_mm.is_some(), &mut notes),
             (Some(field), None) | (None, Some(field)) => field,
-            (None, None) => unreachable!("there is a picture"),
+            (None, None) => return Err(none()),
         };
         let field = field.levelled();
         if height.is_some() && grey::skewness(&field) > CRESTED {
@@ -303,16 +301,12 @@ fn by_heights(
 
 /// Long waves of the heights and short ones of the normals, which also tell the depth where none is stated.
 fn joined(
-    low: HeightField,
+    low: &HeightField,
     high: &HeightField,
     is_stated: bool,
     notes: &mut Vec<String>,
 ) -> HeightField {
-    let plane = |field: &HeightField| {
-        let mut heights: Vec<f64> = field.heights_um().iter().map(|h| f64::from(*h)).collect();
-        Plane::of(field.width(), &mut heights)
-    };
-    let (mut long, mut short) = (plane(&low), plane(high));
+    let (mut long, mut short) = (low.plane(), high.plane());
     let per_mm = low.step_per_mm();
     let crossing_per_mm = 1.0 / (CROSSING * low.pitch_mm()[0].max(low.pitch_mm()[1]));
     let away = |[x, y]: [f64; 2]| libm::hypot(x * per_mm[0], y * per_mm[1]) / crossing_per_mm;
@@ -349,5 +343,5 @@ fn joined(
         let share = 1.0 / (1.0 + away(periods).powi(4));
         *a = *a * (share * scale) + *b * (1.0 - share);
     }
-    low.with_heights(long.inverse().into_iter().map(|h| h as f32).collect())
+    low.of_plane(long)
 }

@@ -18,13 +18,14 @@ use asperity_corpus::{
     reference,
 };
 use asperity_surface::{
-    direction::{self, SILENT_DB, SPEEDS_MM_S},
+    direction::{self, SILENT_DB},
     vibration::{POINTS, Spectrum, bands_db, lsf},
 };
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
-/// Force of the strokes, N, and their angles from across the axis, degrees.
+/// Speeds of the strokes, mm/s, their force, N, and their angles from across the axis, degrees.
+const SPEEDS_MM_S: [f64; 3] = [60.0, 120.0, 200.0];
 const FORCE_N: f64 = 1.0;
 const ANGLES_DEG: [f64; 7] = [0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0];
 /// An error that is larger than a second grid's by this is a loss, dB.

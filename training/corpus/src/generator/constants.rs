@@ -274,6 +274,7 @@ impl Constants {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use asperity_surface::vibration::FLOOR;
 
     #[test]
     fn there_are_at_most_thirty_and_the_file_states_each_with_its_source() {
@@ -288,6 +289,7 @@ mod tests {
         assert_eq!(Constants::from_array(values.to_array()), values);
         assert_ne!(values, file.values(ConstantSet::Open));
         assert_eq!(values.stylus(), Stylus::CALIBRATED);
+        assert!((values.floor / FLOOR - 1.0).abs() < 1e-3);
     }
 
     #[test]

@@ -3,7 +3,6 @@
 use super::{Physical, constants::Constants, surface::relief_power};
 use crate::Bin;
 use asperity_surface::{
-    contact::fitted_power,
     stylus::Support,
     vibration::{self, Spectrum},
 };
@@ -46,4 +45,12 @@ pub fn gain(constants: &Constants, physical: &Physical, stroke: Bin, freq_hz: f6
         * squared
         * squared
         * constants.stylus().transmission(&support, freq_hz)
+}
+
+/// Returns the power transmission of an average over the contact, on heights: `(1 + (2πkw)²)^(−3/2)` with the contact's
+/// length w. The transform of Hertz's pressure, √(1 − x²), falls as k^(−3/2).
+fn fitted_power(k_per_mm: f64, contact_mm: f64) -> f64 {
+    let x = std::f64::consts::TAU * k_per_mm * contact_mm;
+    let squared = 1.0 + x * x;
+    1.0 / (squared * squared.sqrt())
 }

@@ -8,13 +8,6 @@ use asperity::{
 use asperity_surface::vibration::{self, POINTS, Spectrum};
 use std::f64::consts::PI;
 
-/// Lower bound of |1 + e^{−jω}|² when it is divided out; its peak is 4.
-///
-/// Without the bound, poles would crowd at Nyquist where a source has no zero there. A tenth of
-/// this bound would halve the smallest gap between LSFs and gain a hundredth of a decibel below
-/// 450 Hz.
-const NYQUIST_FLOOR: f64 = 1e-4;
-
 /// A model of the corpus at its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sounding {
@@ -40,17 +33,14 @@ pub(super) fn sounds(model: &SourceModel) -> bool {
 /// LSFs.
 pub(super) fn convert(model: &SourceModel) -> Option<Sounding> {
     let mut mean = 0.0;
-    let mut shape: Spectrum = std::array::from_fn(|point| {
+    let power: Spectrum = std::array::from_fn(|point| {
         let omega = (point as f64 + 0.5) * PI / POINTS as f64;
         let power =
             squared_magnitude(&model.ma.monic, omega) / squared_magnitude(&model.ar.monic, omega);
         mean += power / POINTS as f64;
-        let zero = 2.0 + 2.0 * libm::cos(omega);
-        power / zero.max(NYQUIST_FLOOR)
+        power
     });
-    for power in &mut shape {
-        *power /= mean;
-    }
+    let shape = vibration::without_nyquist(&power).map(|power| power / mean);
     let lsf_rad = vibration::lsf(&shape).map(f64::from);
     let sigma = model.gain * model.variance.sqrt();
     let level_db = 20.0 * libm::log10(sigma) + 10.0 * libm::log10(mean);
