@@ -10,8 +10,6 @@ use crate::{
 use asperity::{
     driver::{self, Compiled},
     interchange::ranges,
-    learned::inference::Backend,
-    library::Setup,
     pipeline::{Clock, Request},
     sources::{
         Source, Tools,
@@ -19,13 +17,11 @@ use asperity::{
         effects::{Effects, EffectsKind, Options},
         hatt::{self, Hatt},
         model_file::ModelFile,
-        recording::RecordingFolder,
     },
 };
 use asperity_io::{
     clock::now,
     input::{self, InputError},
-    output,
 };
 use pyo3::{IntoPyObjectExt as _, prelude::*};
 use std::path::PathBuf;
@@ -177,90 +173,6 @@ fn texture(compiled: Compiled) -> Result<Texture, Failure> {
     Texture::made(compiled.lowered.bytes, Some(report))
 }
 
-/// Imports a recording: the acceleration, force and motion of a tool on a surface.
-///
-/// The files are checked, aligned and fitted; what was not recorded is completed by the learned
-/// model, as the report states. The asset equals that of ``asperity import recording``. Other
-/// threads run meanwhile.
-///
-/// Parameters
-/// ----------
-/// folder : str or os.PathLike
-///     A folder with ``recording.toml`` and CSV, WAV or NumPy files: ``docs/recording.md``.
-/// fidelity : {"full", "auto"} or int, default "auto"
-///     How much is kept.
-/// rate : float, optional
-///     Rate of the models, Hz: that of the servo loop; 1000 by default.
-/// force : bool, default False
-///     Whether faults that the check found are let pass.
-/// model : str or os.PathLike, optional
-///     A model folder; the embedded model by default.
-/// preview : bool or int, default True
-///     Whether the asset holds a preview, or its width and height in pixels.
-/// plot : str or os.PathLike, optional
-///     A PNG to draw every step of the import on.
-///
-/// Returns
-/// -------
-/// Texture
-///     With the report of every step as `Texture.report`.
-///
-/// Warns
-/// -----
-/// AsperityWarning
-///     For everything that the check warns of.
-///
-/// Raises
-/// ------
-/// AsperityError
-///     With the file, the channel and the remedy of what is wrong.
-#[pyfunction]
-#[pyo3(
-    signature = (
-        folder, *, fidelity=Fidelity::AUTO, rate=None, force=false, model=None,
-        preview=Preview::Usual, plot=None
-    ),
-    text_signature = "(folder, *, fidelity='auto', rate=None, force=False, model=None, \
-                      preview=True, plot=None)"
-)]
-#[allow(clippy::too_many_arguments, reason = "keyword arguments of Python")]
-pub(crate) fn import_recording(
-    py: Python<'_>,
-    folder: PathBuf,
-    fidelity: Fidelity,
-    rate: Option<f64>,
-    force: bool,
-    model: Option<PathBuf>,
-    preview: Preview,
-    plot: Option<PathBuf>,
-) -> PyResult<Texture> {
-    let source = RecordingFolder { folder, force };
-    let request = request(None, fidelity, rate, preview);
-    let compiled = py.detach(|| {
-        let setup = Setup {
-            model,
-            ..Setup::default()
-        };
-        let model = setup.model(&Backend::Portable).map_err(Failure::all)?;
-        let tools = Tools {
-            model: Some(&model),
-            clock: Clock(now),
-            ..Tools::default()
-        };
-        let compiled = driver::compile(&source, &request, &tools).map_err(error::stopped)?;
-        if let Some(path) = &plot {
-            let sheet = compiled.sheet().map_err(|error| {
-                let message = format!("the sheet cannot be drawn: {error}");
-                Failure::new(message, "leave plot out")
-            })?;
-            output::write_atomic(path, &sheet.unwrap_or_default())?;
-        }
-        Ok::<_, Failure>(compiled)
-    })?;
-    let report = compiled.json();
-    author::texture(py, compiled, &report)
-}
-
 /// Imports effects of another tool: AHAP, NiceVibrations ``.haptic`` or HJIF.
 ///
 /// Such a file gives no speed, force or acceleration: arguments do. Its continuous effects become
@@ -369,7 +281,7 @@ pub(crate) fn import_effect(
 }
 
 /// Builds the request for an imported texture.
-fn request(
+pub(crate) fn request(
     name: Option<String>,
     fidelity: Fidelity,
     rate_hz: Option<f64>,

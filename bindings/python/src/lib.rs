@@ -8,7 +8,8 @@
 //! |---|---|
 //! | `author.rs` | `compile`, `Author`: prompts |
 //! | `mix.rs` | `blend`, `compose`, `encode`, edits |
-//! | `import.rs` | `import_hatt`, `import_model`, `import_recording`, `import_effect`, `builtin` |
+//! | `import.rs` | `import_hatt`, `import_model`, `import_effect`, `builtin` |
+//! | `measured.rs` | `import_recording`, `import_surface` |
 //! | `export.rs` | `export` |
 //! | `texture.rs` | `Texture`, over `contents.rs` and `arrays.rs` |
 //! | `library.rs`, `scene.rs`, `load.rs` | `Library`, `Scene`, `pack`, `load` |
@@ -30,6 +31,7 @@ mod import;
 mod libraries;
 mod library;
 mod load;
+mod measured;
 mod mix;
 mod motion;
 mod output;
@@ -54,13 +56,15 @@ mod _native {
     #[pymodule_export]
     use crate::export::export;
     #[pymodule_export]
-    use crate::import::{builtin, import_effect, import_hatt, import_model, import_recording};
+    use crate::import::{builtin, import_effect, import_hatt, import_model};
     #[pymodule_export]
     use crate::libraries::{diff, merge};
     #[pymodule_export]
     use crate::library::{Library, pack};
     #[pymodule_export]
     use crate::load::load;
+    #[pymodule_export]
+    use crate::measured::{import_recording, import_surface};
     #[pymodule_export]
     use crate::mix::{blend, compose, encode};
     #[pymodule_export]

@@ -146,6 +146,30 @@ def test_a_recording_is_that_of_the_command_with_its_report_and_sheet(recording,
     assert oak.name == "Oak" and oak.friction.mu == pytest.approx(0.3, abs=0.03)
 
 
+@pytest.mark.filterwarnings("ignore::asperity.AsperityWarning")
+def test_a_surface_is_that_of_the_command(command, tmp_path):
+    x = np.arange(2000) * 0.01
+    z = 20 * np.sin(2 * np.pi * x) + np.random.default_rng(3).normal(0, 1, 2000)
+    np.savetxt(tmp_path / "comb.csv", np.c_[x, z], "%.4f", ",", header="x_mm,z_um", comments="")
+    command(
+        *("import", "surface", tmp_path / "comb.csv", "-o", tmp_path / "comb.asp"),
+        *("--like", "hard plastic", "--tip", "needle", "--plot", tmp_path / "theirs.png"),
+    )
+    ours = tmp_path / "ours.png"
+    comb = asperity.import_surface(tmp_path / "comb.csv", like="hard plastic", tip="needle", plot=ours)
+    assert comb.to_bytes() == (tmp_path / "comb.asp").read_bytes()
+    assert ours.read_bytes() == (tmp_path / "theirs.png").read_bytes()
+    assert comb.report["surface"]["like"] == "hard plastic" and comb.name == "comb"
+    for expected, part, keys in [
+        (asperity.UsageError, 'tip = "pen"', {"tip": "pen"}),
+        (asperity.UsageError, 'normal = "up"', {"normal": "up"}),
+        (asperity.UsageError, "width_mm: 0 mm", {"width_mm": 0}),
+        (asperity.AsperityError, "comb.csv: width_mm: 5 mm", {"width_mm": 5}),
+    ]:
+        with pytest.raises(expected, match=f"(?s){part}.*help: ."):
+            asperity.import_surface(tmp_path / "comb.csv", **keys)
+
+
 def test_what_cannot_be_exchanged_says_why(grit, texture, tmp_path):
     (tmp_path / "text.ahap").write_text("no effect")
     (tmp_path / "what.bin").write_text("no effect")

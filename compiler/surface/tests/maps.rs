@@ -73,7 +73,7 @@ fn floats(change: impl Fn(usize, f32) -> f32) -> Vec<u8> {
 }
 
 fn read(bytes: &[u8], size: &Size) -> Result<HeightMap, Fault> {
-    Pictures::of(Raster::read(bytes)?, None).heights(size)
+    Pictures::of(Raster::read("map".as_ref(), bytes)?, None).heights(size)
 }
 
 fn refused(bytes: &[u8], size: &Size) -> String {
@@ -124,16 +124,16 @@ fn what_shows_no_heights_is_refused() {
         (
             grey.clone(),
             wide(0.0),
-            &["--width-mm", "0 mm is no width"][..],
+            &["width_mm", "0 mm is no width"][..],
         ),
-        (grey.clone(), wide(f64::NAN), &["--width-mm", "no width"]),
+        (grey.clone(), wide(f64::NAN), &["width_mm", "no width"]),
         (
             grey.clone(),
             Size {
                 depth_mm: Some(0.0),
                 ..SIZE
             },
-            &["--depth-mm", "no depth"],
+            &["depth_mm", "no depth"],
         ),
         (
             grey,
@@ -147,7 +147,7 @@ fn what_shows_no_heights_is_refused() {
         (
             rgb(&normals),
             SIZE,
-            &["--depth-mm", "normal map says its own depth"],
+            &["depth_mm", "normal map says its own depth"],
         ),
         (
             png(ColorType::GrayscaleAlpha, BitDepth::Eight, &holes, plain),
@@ -233,6 +233,23 @@ fn doubts_are_said() {
     assert!(notes(&oblong, &SIZE).contains("2.000 times as high"));
     let [x, y] = read(&oblong, &SIZE).unwrap().field.pitch_mm();
     assert!((y / x - 2.0).abs() < 1e-9);
+    // The chunk follows the header: one entry, the orientation 6.
+    let mut exif = b"eXIfMM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0\x06\0\0".to_vec();
+    exif.extend(crc32(&exif).to_be_bytes());
+    let mut turned = grey(&plain);
+    turned.splice(33..33, [0, 0, 0, 22].into_iter().chain(exif));
+    assert!(notes(&turned, &SIZE).contains("orientation 6"));
+    let mut bytes = Cursor::new(Vec::new());
+    let mut encoder = TiffEncoder::new(&mut bytes).unwrap();
+    let heights: Vec<u16> = (0..SIDE * SIDE).map(|n| (n * 7919) as u16).collect();
+    for _ in 0..2 {
+        let page = encoder.new_image::<colortype::Gray16>(SIDE, SIDE);
+        let mut page = page.unwrap();
+        page.encoder().write_tag(Tag::Orientation, 3_u16).unwrap();
+        page.write_data(&heights).unwrap();
+    }
+    let pages = notes(&bytes.into_inner(), &SIZE);
+    assert!(pages.contains("several pictures") && pages.contains("orientation 3"));
     let absurd = grey(&|encoder| {
         encoder.set_pixel_dims(Some(PixelDimensions {
             xppu: 0,

@@ -36,14 +36,15 @@ fn known(x: u32, y: u32) -> [f64; 3] {
 fn raster(channels: usize, of: impl Fn(u32, u32) -> Vec<f64>) -> Raster {
     let pixels = (0..FINE * FINE).flat_map(|n| of(n % FINE, n / FINE));
     Raster {
+        file: "map".into(),
         width: FINE as usize,
         whole: [FINE as usize; 2],
         channels,
         samples: pixels.map(|part| part as f32).collect(),
         largest: Some(65535),
         aspect: 1.0,
-        is_coded: false,
-        is_lossy: false,
+        is_transparent: false,
+        notes: Vec::new(),
     }
 }
 

@@ -45,7 +45,7 @@ fn profiles_are_tables() {
         (
             good.clone(),
             wide(50.0),
-            &["--width-mm", "span 19.950 mm"][..],
+            &["width_mm", "span 19.950 mm"][..],
         ),
         (good.replace("x_mm", "y"), size, &["one column of heights"]),
         (

@@ -184,7 +184,11 @@ impl Checker<'_> {
             (None, None) => return None,
         };
         if !name::fits(&name) {
-            self.fault(line, "name", name::invalid(&name));
+            let fault = match field {
+                Some(_) => name::invalid(&name),
+                None => Fault::new("the texture has no name", "give it a `name`"),
+            };
+            self.fault(line, "name", fault);
             return None;
         }
         // NA and None may be names; these are what scripts print.

@@ -1,6 +1,6 @@
 //! The report of an import, for machines and for people.
 
-use super::{Surveyed, grid::STROKE};
+use super::{Surveyed, grid::STROKE, source::RANGES_MM};
 use crate::compiled::Compiled;
 use asperity_surface::stroke::LEAST_SPREAD_OCTAVES;
 use serde_json::{Value, json};
@@ -104,8 +104,12 @@ pub(super) fn warnings(found: &Surveyed) -> Vec<String> {
     if found.rms_um <= 0.0 {
         warnings.push("the map is flat: nothing vibrates".to_owned());
     } else if let Some(depth_mm) = found.guessed_mm {
+        let end = match RANGES_MM.0 < depth_mm && depth_mm < RANGES_MM.1 {
+            true => "",
+            false => ", the end of what is guessed",
+        };
         warnings.push(format!(
-            "no depth was stated, so heights and the level of {:.1} dB re 1 m/s² are a guess, {depth_mm:.4} mm from black to white: state --depth-mm",
+            "no depth was stated, so heights and the level of {:.1} dB re 1 m/s² are a guess, {depth_mm:.4} mm from black to white{end}: state --depth-mm",
             found.survey.level_db
         ));
     }

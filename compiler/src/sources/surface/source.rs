@@ -47,9 +47,7 @@ const USUAL_DB: f64 = 0.0;
 /// Steps towards that level.
 const STEPS: usize = 3;
 /// Ranges of heights that may be guessed, mm.
-const RANGES_MM: (f64, f64) = (1e-6, 10.0);
-/// Most pixels of a picture that are kept.
-const MOST_PIXELS: [usize; 2] = [4096; 2];
+pub(super) const RANGES_MM: (f64, f64) = (1e-6, 10.0);
 /// Most points along a side of the heights that are kept for the sheet.
 const THUMBNAIL: usize = 256;
 
@@ -131,7 +129,7 @@ impl Surface {
         if self.path.extension().is_some_and(is_table) {
             let bytes = self.bytes(&self.path, tools)?;
             let map = profile(&bytes, &self.options.size);
-            let map = map.map_err(|fault| placed(fault, &self.path))?;
+            let map = map.map_err(|fault| fault.at(&self.path))?;
             return Ok((map, None, crc32fast::hash(&bytes)));
         }
         let material = self.material()?;
@@ -142,9 +140,7 @@ impl Surface {
             };
             let bytes = self.bytes(file, tools)?;
             hasher.update(&bytes);
-            let raster = Raster::read(&bytes).map_err(|fault| fault.at(file))?;
-            // No more of it is stroked.
-            Ok(Some(raster.middle(MOST_PIXELS)))
+            Ok(Some(Raster::read(file, &bytes)?))
         };
         let color = raster(&material.color)?;
         let (height, normal) = (raster(&material.height)?, raster(&material.normal)?);
@@ -157,8 +153,7 @@ impl Surface {
                 convention,
             },
         };
-        let heights = pictures.heights(&self.options.size);
-        let heights = heights.map_err(|fault| placed(fault, &self.path))?;
+        let heights = pictures.heights(&self.options.size)?;
         Ok((heights, color, hasher.finalize()))
     }
 }
@@ -168,14 +163,6 @@ fn is_table(ending: &OsStr) -> bool {
     ["csv", "tsv", "txt"]
         .iter()
         .any(|table| ending.eq_ignore_ascii_case(table))
-}
-
-/// A fault of a map, at its path unless it is one of the command.
-fn placed(fault: Fault, path: &Path) -> Fault {
-    match fault.usage {
-        true => fault,
-        false => fault.at(path),
-    }
 }
 
 impl Source for Surface {

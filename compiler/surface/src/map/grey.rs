@@ -95,8 +95,15 @@ pub(super) fn without_marks(samples: &[f32]) -> Result<(), Fault> {
     }
 }
 
-/// Refuses numbers that are none.
+/// Refuses numbers that are none, and pixels that are not there.
 pub(super) fn finite(raster: &Raster) -> Result<(), Fault> {
+    if raster.is_transparent {
+        let what = "some of its pixels are transparent, and have no height";
+        return Err(Fault::new(
+            what,
+            "fill the holes, and save it without alpha",
+        ));
+    }
     if let Some(at) = raster.samples.iter().position(|sample| !sample.is_finite()) {
         let bad = raster
             .samples

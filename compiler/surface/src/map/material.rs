@@ -11,7 +11,7 @@ use std::{
 /// Endings of pictures that are read, the most exact first.
 const ENDINGS: [&str; 5] = ["tif", "tiff", "png", "jpg", "jpeg"];
 /// Parts of names of maps of heights, the most exact first.
-const HEIGHT: [&str; 7] = [
+const HEIGHT: [&str; 8] = [
     "displacement",
     "disp",
     "height",
@@ -19,11 +19,12 @@ const HEIGHT: [&str; 7] = [
     "parallax",
     "depth",
     "bump",
+    "h",
 ];
-const NORMAL: [&str; 5] = ["normal", "normals", "normalmap", "nor", "nrm"];
+const NORMAL: [&str; 6] = ["normal", "normals", "normalmap", "nor", "nrm", "n"];
 const NORMAL_GL: [&str; 3] = ["normalgl", "gl", "opengl"];
 const NORMAL_DX: [&str; 3] = ["normaldx", "dx", "directx"];
-const COLOR: [&str; 9] = [
+const COLOR: [&str; 11] = [
     "color",
     "colour",
     "basecolor",
@@ -33,6 +34,8 @@ const COLOR: [&str; 9] = [
     "diff",
     "col",
     "base",
+    "bc",
+    "d",
 ];
 
 /// Parts of names of maps that say nothing of heights.
@@ -288,6 +291,20 @@ mod tests {
                     Some("leather-Height.tif"),
                     Some("leather-Normal.png"),
                     Some("leather-BaseColor.jpg"),
+                ],
+                None,
+            ),
+            (
+                &[
+                    "T_Oak_N.png",
+                    "T_Oak_H.png",
+                    "T_Oak_BC.png",
+                    "T_Oak_ORM.png",
+                ],
+                [
+                    Some("T_Oak_H.png"),
+                    Some("T_Oak_N.png"),
+                    Some("T_Oak_BC.png"),
                 ],
                 None,
             ),

@@ -96,8 +96,12 @@ impl Pictures {
             let what = format!("heights have {columns} × {rows} pixels, normals {x} × {y}");
             return Err(Fault::new(what, "scale both to the same size"));
         }
-        let pitch_mm = size.pitch_mm(raster)?;
-        let mut notes = Vec::new();
+        let placed = |raster: &Raster| {
+            let file = raster.file.clone();
+            move |fault: Fault| fault.at(file)
+        };
+        let pitch_mm = size.pitch_mm(raster).map_err(placed(raster))?;
+        let mut notes = raster.notes.clone();
         if (raster.aspect - 1.0).abs() > UNEQUAL {
             notes.push(format!(
                 "its pixels are {:.3} times as high as wide, as the file says",
@@ -105,7 +109,10 @@ impl Pictures {
             ));
         }
         let field = match height {
-            Some(raster) => Some(by_heights(raster, pitch_mm, size.depth_mm, &mut notes)?),
+            Some(raster) => {
+                let found = by_heights(raster, pitch_mm, size.depth_mm, &mut notes);
+                Some(found.map_err(placed(raster))?)
+            }
             None => None,
         };
         let by_normals = match (normal, size.depth_mm, &field) {
@@ -113,9 +120,12 @@ impl Pictures {
             (_, Some(_), None) => {
                 let what = "a normal map says its own depth";
                 let fault = Fault::new(what, "leave it out, or give the height map as well");
-                return Err(fault.field("--depth-mm").usage());
+                return Err(fault.field("depth_mm").usage());
             }
-            (Some(raster), ..) => Some(self.by_normals(raster, pitch_mm, &mut notes)?),
+            (Some(raster), ..) => {
+                let found = self.by_normals(raster, pitch_mm, &mut notes);
+                Some(found.map_err(placed(raster))?)
+            }
         };
         let has_depth = size.depth_mm.is_some() || by_normals.is_some();
         let field = match (field, by_normals) {
@@ -194,13 +204,13 @@ impl Size {
         if !(width_mm.is_finite() && (0.1..=10_000.0).contains(&width_mm)) {
             let what = format!("{width_mm} mm is no width of a map");
             let remedy = "state how wide the surface is that the picture shows, 0.1 to 10000 mm";
-            return Err(Fault::new(what, remedy).field("--width-mm").usage());
+            return Err(Fault::new(what, remedy).field("width_mm").usage());
         }
         let depth_mm = self.depth_mm.unwrap_or(1.0);
         if !(depth_mm.is_finite() && depth_mm != 0.0 && depth_mm.abs() <= DEEPEST_MM) {
             let what = format!("{depth_mm} mm is no depth of a map");
             let remedy = "state how high white lies above black, in mm, up to 100; negative where white is low";
-            return Err(Fault::new(what, remedy).field("--depth-mm").usage());
+            return Err(Fault::new(what, remedy).field("depth_mm").usage());
         }
         Ok(())
     }
@@ -222,9 +232,10 @@ impl Size {
 }
 
 fn no_width() -> Fault {
-    let remedy = "state how wide the surface is that the picture shows, in mm";
+    let remedy =
+        "state how wide the surface is that the picture shows, in mm, with --width-mm or width_mm";
     Fault::new("no picture says its width", remedy)
-        .field("--width-mm")
+        .field("width_mm")
         .usage()
 }
 
@@ -241,7 +252,7 @@ fn fine_enough(coarsest_mm: f64, width_mm: f64, columns: usize) -> Result<(), Fa
     let remedy = format!(
         "give a map of at least {fewest} points a row, or the true width if it is {most_mm:.0} mm or less"
     );
-    Err(Fault::new(what, remedy).field("--width-mm"))
+    Err(Fault::new(what, remedy).field("width_mm"))
 }
 
 fn unheld() -> Fault {
@@ -270,14 +281,6 @@ fn by_heights(
         };
     let heights = samples.iter().map(|h| (f64::from(*h) * scale_um) as f32);
     let field = HeightField::new(raster.width, pitch_mm, heights.collect()).ok_or_else(unheld)?;
-    if raster.is_coded {
-        notes.push("the file says that its numbers are coded for a screen (sRGB); they are taken as heights as they are: save it as linear data if that is wrong".into());
-    }
-    if raster.is_lossy {
-        notes.push(
-            "a JPEG keeps what eyes see of heights: give a PNG or TIFF where there is one".into(),
-        );
-    }
     let field = field.levelled();
     let Some(step) = raster.largest.and_then(|_| grey::step(&samples)) else {
         return Ok(field);

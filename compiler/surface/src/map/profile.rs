@@ -101,7 +101,7 @@ pub fn profile(bytes: &[u8], size: &Size) -> Result<HeightMap, Fault> {
                     "{stated} mm, where the positions span {:.3} mm",
                     last - first
                 );
-                return Err(Fault::new(what, "leave it out").field("--width-mm").usage());
+                return Err(Fault::new(what, "leave it out").field("width_mm").usage());
             }
             pitch_mm
         }

@@ -1,7 +1,10 @@
 //! A picture as numbers, whatever its format.
 
 use asperity_io::diagnostic::Fault;
-use std::io::Cursor;
+use std::{
+    io::Cursor,
+    path::{Path, PathBuf},
+};
 use tiff::{
     ColorType,
     decoder::{Decoder, DecodingResult, Limits, ifd::Value},
@@ -16,12 +19,18 @@ use zune_jpeg::{
 const MOST_PIXELS: u64 = 8192 * 8192;
 /// Most bytes that a picture takes when it is unpacked.
 const MOST_BYTES: usize = 1 << 30;
+/// Most columns and rows that are kept, those in the middle: no more of a surface is stroked.
+const MOST_KEPT: usize = 4096;
+/// Tag of a picture's orientation, in TIFF and in EXIF.
+const ORIENTATION: u16 = 274;
 const AGAIN: &str = "copy or export the file again";
 const AS_GREY: &str = "save the heights as a greyscale PNG or TIFF of 16 bits";
 
 /// A picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Raster {
+    /// Its file.
+    pub file: PathBuf,
     /// Pixels in a row.
     pub width: usize,
     /// Columns and rows of the file, of which this may be the middle.
@@ -34,48 +43,70 @@ pub struct Raster {
     pub largest: Option<u32>,
     /// Height of a pixel over its width.
     pub aspect: f64,
-    /// True if the file says that its numbers are coded for a screen.
-    pub is_coded: bool,
-    /// True for a JPEG, which keeps what eyes see.
-    pub is_lossy: bool,
+    /// True if some of its pixels are transparent.
+    pub is_transparent: bool,
+    /// Doubts about its numbers, in words for the user.
+    pub notes: Vec<String>,
+}
+
+/// A picture as its file has it.
+struct Unpacked<'a> {
+    whole: [usize; 2],
+    /// Numbers in a pixel: those of [`Raster`], and one more where it may be transparent.
+    channels: usize,
+    aspect: f64,
+    notes: Vec<String>,
+    file: &'a Path,
+}
+
+impl Unpacked<'_> {
+    /// The middle of all numbers, as parts of the largest.
+    fn raster<T: Copy>(self, all: &[T], largest: Option<u32>, part: impl Fn(T) -> f32) -> Raster {
+        let Self {
+            whole, channels, ..
+        } = self;
+        let [width, height] = whole.map(|pixels| pixels.min(MOST_KEPT));
+        let [left, top] = [(whole[0] - width) / 2, (whole[1] - height) / 2];
+        let rows = all.chunks_exact(channels * whole[0]).skip(top).take(height);
+        let pixels = rows
+            .flat_map(|row| row[channels * left..channels * (left + width)].chunks_exact(channels));
+        let kept = if channels == 1 || channels == 2 { 1 } else { 3 };
+        let mut samples = Vec::with_capacity(kept * width * height);
+        let mut is_transparent = false;
+        for pixel in pixels {
+            samples.extend(pixel[..kept].iter().map(|n| part(*n)));
+            is_transparent |= pixel[kept..].iter().any(|n| part(*n) < 1.0);
+        }
+        Raster {
+            file: self.file.to_owned(),
+            width,
+            whole,
+            channels: kept,
+            samples,
+            largest,
+            aspect: self.aspect,
+            is_transparent,
+            notes: self.notes,
+        }
+    }
 }
 
 impl Raster {
-    /// Reads a PNG, a TIFF or a JPEG.
+    /// Reads the middle of a PNG, a TIFF or a JPEG, at most 4096 × 4096 pixels of it.
     ///
     /// # Errors
-    /// [`Fault`] for damage, a size beyond 8192 × 8192, palettes, transparency, and colours other than red, green and blue.
-    pub fn read(bytes: &[u8]) -> Result<Self, Fault> {
-        if bytes.starts_with(b"\x89PNG") {
-            png(bytes)
+    /// [`Fault`] for damage, a size beyond 8192 × 8192, palettes, and colours other than red, green and blue.
+    pub fn read(file: &Path, bytes: &[u8]) -> Result<Self, Fault> {
+        let raster = if bytes.starts_with(b"\x89PNG") {
+            png(file, bytes)
         } else if bytes.starts_with(b"II") || bytes.starts_with(b"MM") {
-            tiff(bytes)
+            tiff(file, bytes)
         } else if bytes.starts_with(b"\xff\xd8\xff") {
-            jpeg(bytes)
+            jpeg(file, bytes)
         } else {
             Err(Fault::new("it is no PNG, TIFF or JPEG", AS_GREY))
-        }
-    }
-
-    /// The middle, at most so many pixels wide and high.
-    #[must_use]
-    pub fn middle(self, most: [usize; 2]) -> Self {
-        let (width, height) = (self.width.min(most[0]), self.height().min(most[1]));
-        if [width, height] == [self.width, self.height()] {
-            return self;
-        }
-        let (left, top) = ((self.width - width) / 2, (self.height() - height) / 2);
-        let rows = self.samples.chunks_exact(self.channels * self.width);
-        let kept = self.channels * left..self.channels * (left + width);
-        let samples = rows
-            .skip(top)
-            .take(height)
-            .flat_map(|row| &row[kept.clone()]);
-        Self {
-            width,
-            samples: samples.copied().collect(),
-            ..self
-        }
+        };
+        raster.map_err(|fault| fault.at(file))
     }
 
     /// Rows.
@@ -108,28 +139,31 @@ fn palette() -> Fault {
     Fault::new(what, AS_GREY)
 }
 
-fn transparent() -> Fault {
-    let what = "some of its pixels are transparent, and have no height";
-    Fault::new(what, "fill the holes, and save the heights without alpha")
-}
-
-/// The samples without their last channel, where that is opaque everywhere.
-fn opaque(samples: Vec<f32>, channels: usize) -> Result<(Vec<f32>, usize), Fault> {
-    let kept = channels - 1;
-    if samples
-        .chunks_exact(channels)
-        .any(|pixel| pixel[kept] < 1.0)
-    {
-        return Err(transparent());
-    }
-    let pixels = samples.chunks_exact(channels);
-    Ok((
-        pixels.flat_map(|pixel| &pixel[..kept]).copied().collect(),
-        kept,
+/// The note on a picture that is shown turned.
+fn turned(orientation: Option<u16>) -> Option<String> {
+    let orientation = orientation.filter(|orientation| (2..=8).contains(orientation))?;
+    Some(format!(
+        "the file says that it is to be turned or mirrored (orientation {orientation}); it is read as it is stored: save it upright if its width or direction is wrong"
     ))
 }
 
-fn png(bytes: &[u8]) -> Result<Raster, Fault> {
+/// The orientation in the first directory of EXIF data.
+fn orientation(exif: &[u8]) -> Option<u16> {
+    let is_little = exif.starts_with(b"II");
+    let short = |at: usize| {
+        let two = [*exif.get(at)?, *exif.get(at + 1)?];
+        Some(match is_little {
+            true => u16::from_le_bytes(two),
+            false => u16::from_be_bytes(two),
+        })
+    };
+    let (low, high) = if is_little { (4, 6) } else { (6, 4) };
+    let first = usize::from(short(high)?) << 16 | usize::from(short(low)?);
+    let mut entries = (0..usize::from(short(first)?)).map(|n| first + 2 + 12 * n);
+    short(entries.find(|entry| short(*entry) == Some(ORIENTATION))? + 8)
+}
+
+fn png(file: &Path, bytes: &[u8]) -> Result<Raster, Fault> {
     let damaged = |error: png::DecodingError| Fault::new(format!("a damaged PNG: {error}"), AGAIN);
     let limits = png::Limits { bytes: MOST_BYTES };
     let mut decoder = png::Decoder::new_with_limits(Cursor::new(bytes), limits);
@@ -141,45 +175,42 @@ fn png(bytes: &[u8]) -> Result<Raster, Fault> {
     if info.color_type == png::ColorType::Indexed {
         return Err(palette());
     }
-    let largest = (1_u32 << info.bit_depth as u32) - 1;
+    let largest = Some((1_u32 << info.bit_depth as u32) - 1);
     let is_coded = info.srgb.is_some()
         || info.icc_profile.is_some()
         || info
             .gama_chunk
             .is_some_and(|gamma| gamma.into_value() < 0.9);
+    let mut notes: Vec<String> = Vec::new();
+    if is_coded {
+        notes.push("the file says that its numbers are coded for a screen (sRGB); they are taken as they are: save it as linear data if that is wrong".into());
+    }
     let aspect = info.pixel_dims.map_or(1.0, |per_unit| {
         told(f64::from(per_unit.xppu) / f64::from(per_unit.yppu))
     });
     let mut packed = vec![0; reader.output_buffer_size().unwrap_or(0)];
     let frame = reader.next_frame(&mut packed).map_err(damaged)?;
-    let channels = frame.color_type.samples();
+    // The data of EXIF may follow the pixels.
+    let _ = reader.finish();
+    let exif = reader.info().exif_metadata.as_deref();
+    notes.extend(turned(exif.and_then(orientation)));
     packed.truncate(frame.buffer_size());
-    let samples: Vec<f32> = match frame.bit_depth {
-        png::BitDepth::Sixteen => {
-            let pairs = packed.chunks_exact(2);
-            pairs
-                .map(|pair| f32::from(u16::from_be_bytes([pair[0], pair[1]])) / 65535.0)
-                .collect()
-        }
-        _ => packed.iter().map(|byte| f32::from(*byte) / 255.0).collect(),
-    };
-    let (samples, channels) = match channels {
-        2 | 4 => opaque(samples, channels)?,
-        _ => (samples, channels),
-    };
-    Ok(Raster {
-        width: width as usize,
+    let unpacked = Unpacked {
         whole: [width as usize, height as usize],
-        channels,
-        samples,
-        largest: Some(largest),
+        channels: frame.color_type.samples(),
         aspect,
-        is_coded,
-        is_lossy: false,
+        notes,
+        file,
+    };
+    Ok(match frame.bit_depth {
+        png::BitDepth::Sixteen => unpacked.raster(packed.as_chunks().0, largest, |pair| {
+            f32::from(u16::from_be_bytes(pair)) / 65535.0
+        }),
+        _ => unpacked.raster(&packed, largest, |byte| f32::from(byte) / 255.0),
     })
 }
 
-fn jpeg(bytes: &[u8]) -> Result<Raster, Fault> {
+fn jpeg(file: &Path, bytes: &[u8]) -> Result<Raster, Fault> {
     let damaged = |error| Fault::new(format!("a damaged JPEG: {error}"), AGAIN);
     let bounds = DecoderOptions::default()
         .set_strict_mode(true)
@@ -195,19 +226,19 @@ fn jpeg(bytes: &[u8]) -> Result<Raster, Fault> {
     let colors = [ColorSpace::Luma, ColorSpace::RGB][channels / 3];
     decoder.set_options(bounds.jpeg_set_out_colorspace(colors));
     let packed = decoder.decode().map_err(damaged)?;
-    Ok(Raster {
-        width: info.width.into(),
+    let lossy = "a JPEG keeps what eyes see: give a PNG or TIFF where there is one".to_owned();
+    let turned = turned(decoder.exif().and_then(|exif| orientation(exif)));
+    let unpacked = Unpacked {
         whole: [info.width.into(), info.height.into()],
         channels,
-        samples: packed.iter().map(|byte| f32::from(*byte) / 255.0).collect(),
-        largest: Some(255),
         aspect: 1.0,
-        is_coded: false,
-        is_lossy: true,
-    })
+        notes: [Some(lossy), turned].into_iter().flatten().collect(),
+        file,
+    };
+    Ok(unpacked.raster(&packed, Some(255), |byte| f32::from(byte) / 255.0))
 }
 
-fn tiff(bytes: &[u8]) -> Result<Raster, Fault> {
+fn tiff(file: &Path, bytes: &[u8]) -> Result<Raster, Fault> {
     let damaged = |error| Fault::new(format!("the TIFF cannot be read: {error}"), AS_GREY);
     let mut limits = Limits::default();
     limits.decoding_buffer_size = MOST_BYTES;
@@ -244,42 +275,37 @@ fn tiff(bytes: &[u8]) -> Result<Raster, Fault> {
         [Some(x), Some(y)] => told(x / y),
         _ => 1.0,
     };
-    let (samples, largest): (Vec<f32>, _) = match decoder.read_image().map_err(damaged)? {
-        DecodingResult::U8(all) => (parts(&all, 255.0), Some(255)),
-        DecodingResult::U16(all) => (parts(&all, 65535.0), Some(65535)),
-        DecodingResult::U32(all) => (parts(&all, f64::from(u32::MAX)), Some(u32::MAX)),
-        DecodingResult::I16(all) => {
-            let above = all.iter().map(|n| f64::from(*n) + 32768.0);
-            (above.map(|n| (n / 65535.0) as f32).collect(), Some(65535))
-        }
-        DecodingResult::F32(all) => (all, None),
-        DecodingResult::F64(all) => (all.iter().map(|n| *n as f32).collect(), None),
+    let turned = turned(tag(Tag::Orientation).and_then(|tag| tag.into_u16().ok()));
+    let pages = decoder
+        .more_images()
+        .then(|| "the TIFF holds several pictures, of which the first is read".to_owned());
+    let all = decoder.read_image().map_err(damaged)?;
+    let unpacked = Unpacked {
+        whole: [width as usize, height as usize],
+        channels,
+        aspect,
+        notes: [turned, pages].into_iter().flatten().collect(),
+        file,
+    };
+    // What stands for no height is none.
+    let height = |n: f32| match hole.is_some_and(|hole| hole as f32 == n) {
+        true => f32::NAN,
+        false => n,
+    };
+    Ok(match &all {
+        DecodingResult::U8(all) => unpacked.raster(all, Some(255), |n| f32::from(n) / 255.0),
+        DecodingResult::U16(all) => unpacked.raster(all, Some(65535), |n| f32::from(n) / 65535.0),
+        DecodingResult::U32(all) => unpacked.raster(all, Some(u32::MAX), |n| {
+            (f64::from(n) / f64::from(u32::MAX)) as f32
+        }),
+        DecodingResult::I16(all) => unpacked.raster(all, Some(65535), |n| {
+            ((f64::from(n) + 32768.0) / 65535.0) as f32
+        }),
+        DecodingResult::F32(all) => unpacked.raster(all, None, height),
+        DecodingResult::F64(all) => unpacked.raster(all, None, |n| height(n as f32)),
         _ => {
             let what = "a TIFF of numbers of a kind that is not read: those are unsigned of 8, 16 or 32 bits, signed of 16, and floats of 32 or 64";
             return Err(Fault::new(what, AS_GREY));
         }
-    };
-    let (mut samples, channels) = match channels {
-        2 | 4 => opaque(samples, channels)?,
-        _ => (samples, channels),
-    };
-    if let (None, Some(hole)) = (largest, hole) {
-        // What stands for no height is none.
-        let holes = samples.iter_mut().filter(|sample| **sample == hole as f32);
-        holes.for_each(|sample| *sample = f32::NAN);
-    }
-    Ok(Raster {
-        width: width as usize,
-        whole: [width as usize, height as usize],
-        channels,
-        samples,
-        largest,
-        aspect,
-        is_coded: false,
-        is_lossy: false,
     })
-}
-
-fn parts<T: Copy + Into<f64>>(all: &[T], largest: f64) -> Vec<f32> {
-    all.iter().map(|n| ((*n).into() / largest) as f32).collect()
 }
