@@ -2,6 +2,7 @@
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
+import { placed } from "./boxes.mjs";
 
 /** Runs the command in a folder; what it prints. */
 export const run = (asperity, cwd, ...args) =>
@@ -49,6 +50,7 @@ export async function clean(page, assert, what, scheme) {
     await page.setViewportSize({ width, height });
     await page.waitForTimeout(150);
     assert(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `nothing is cut off at the side ${what}, ${width} px`);
+    await placed(page, assert, `${what}, ${width} px`);
     const folder = process.env.STUDIO_PICTURES;
     if (folder) await page.screenshot({ path: join(folder, `studio-${what.replaceAll(" ", "-")}-${colorScheme}-${width}.png`) });
     if (width !== LOOKS[scheme]) continue;

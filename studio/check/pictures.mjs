@@ -28,37 +28,40 @@ const STATES = {
   start: async (page) => {
     await page.waitForSelector(".cells [role=option]");
     await page.click("#views label:first-child");
+    await page.evaluate(() => scrollTo(0, 0));
   },
   desk: async (page) => {
     await compile(page, PROMPT);
-    await page.click("#sound-switch");
-    await page.click("#auto");
     await page.waitForTimeout(3000);
   },
   // Plots are drawn where they are seen: all but the strip, above which a browser without a GPU keeps up.
   plots: async (page) => {
-    await page.locator(".live").evaluate((live) => live.scrollIntoView());
+    await page.locator("#live-drawer").evaluate((live) => {
+      live.open = true;
+      live.scrollIntoView();
+    });
     await page.waitForTimeout(4000);
   },
   steering: async (page) => {
-    await page.evaluate(() => scrollTo(0, 0));
+    await page.locator("#live-drawer").evaluate((live) => (live.open = false));
     await page.click("#auto");
+    await page.locator("#change-drawer").evaluate((drawer) => (drawer.open = true));
     await page.fill("#words", "less gritty, more waxy");
     await page.press("#words", "Enter");
     await page.waitForFunction(() => document.querySelector("#words-understood").textContent);
-    await page.click(".mix summary");
-    await page.locator(".mix").evaluate((mix) => mix.scrollIntoView({ block: "end" }));
+    await page.locator("#change-drawer").evaluate((drawer) => drawer.scrollIntoView({ block: "end" }));
   },
   compare: async (page) => {
-    await page.click(".mix summary");
+    await page.locator("#change-drawer").evaluate((drawer) => (drawer.open = false));
     for (const [n, prompt] of SLOTS.entries()) {
       await compile(page, prompt);
       await page.locator("#compare .slot").nth(n).click();
     }
-    await page.locator("#compare input[type=checkbox]").first().check();
+    await page.locator("#compare").evaluate((slots) => slots.scrollIntoView({ block: "end" }));
     await page.waitForTimeout(1500);
   },
   files: async (page) => {
+    await page.evaluate(() => scrollTo(0, 0));
     await page.click("#take-button");
     await page.waitForSelector(".kind");
   },

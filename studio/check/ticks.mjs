@@ -4,8 +4,6 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
 const TICK_HZ = 16000;
-/** The worklet's seed where the page gives none. */
-const SEED = 1;
 
 const join32 = (arrays, Type) => {
   const all = new Type(arrays.reduce((sum, { length }) => sum + length, 0));
@@ -13,9 +11,9 @@ const join32 = (arrays, Type) => {
   return all;
 };
 
-/** The first session from its first tick on. */
+/** The first session that was heard, from its first tick on. */
 export function firstSession(chunks) {
-  const own = chunks.filter(({ session }) => session === 1);
+  const own = chunks.filter(({ session }) => session === chunks[0].session);
   let count = 0;
   for (const { first, flags } of own) {
     if (first !== count) throw new Error(`tick ${first} follows ${count} ticks`);
@@ -32,7 +30,7 @@ export function sameAsCommand(asperity, folder, asset, { positions_mm, columns, 
   const row = (_, n) => [n / TICK_HZ, ...positions_mm.subarray(3 * n, 3 * n + 3)].join(",");
   writeFileSync(input, ["t_s,x_mm,y_mm,z_mm", ...Array.from(flags, row)].join("\n") + "\n");
   execFileSync(asperity, ["render", texture, "--rate", `${TICK_HZ}`, "--trajectory", input, "-o", output,
-    "--seed", `${SEED}`, "--quiet"], { stdio: ["ignore", "ignore", "inherit"] });
+    "--quiet"], { stdio: ["ignore", "ignore", "inherit"] });
   const [header, ...lines] = readFileSync(output, "utf8").trimEnd().split("\n");
   const names = header.split(",").slice(2, 11);
   if (lines.length !== flags.length) return `${flags.length} ticks for ${lines.length} rows`;

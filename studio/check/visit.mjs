@@ -40,7 +40,8 @@ function watch() {
 
 export class Visit {
   static async begin(browser, address, prepare = async () => {}) {
-    const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: "light", hasTouch: true });
+    const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: "light", hasTouch: true,
+      reducedMotion: "reduce" });
     await context.addInitScript(watch);
     await prepare(context);
     const visit = new Visit();
@@ -52,10 +53,14 @@ export class Visit {
       visit.requests++;
       if (!/^(blob|data):/.test(request.url()) && !request.url().startsWith(address)) visit.foreign.push(request.url());
     });
-    page.on("response", (response) => response.url().endsWith(".worklet.asp") && (visit.first ??= response.body()));
+    page.on("response", (response) => response.url().endsWith(".worklet.asp") && (visit.last = response.body().catch(() => null)));
     await page.goto(address);
     await page.waitForFunction(() => document.getElementById("edition").textContent !== "", null, { timeout: 10000 })
       .catch(() => { throw new Error(`the page does not begin: ${visit.errors.join("; ")}`); });
+    // Without motion the page begins with a surface and nobody's hand.
+    await page.waitForSelector(".loaded, #invitation:not([hidden])", { state: "attached" });
+    await page.emulateMedia({ reducedMotion: "no-preference" });
+    await page.evaluate(() => document.querySelectorAll("details.panel").forEach((drawer) => (drawer.open = true)));
     visit.cdp = await context.newCDPSession(page);
     return visit;
   }
@@ -138,9 +143,9 @@ export class Visit {
       Object.fromEntries(COLUMNS.map((name, k) => [name, columns[n * COLUMNS.length + k]]))));
   }
 
-  /** The first asset that the page fetched for its renderer. */
+  /** The asset that the page fetched last for its renderer. */
   asset() {
-    return this.first;
+    return this.last;
   }
 
   end() {

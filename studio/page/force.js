@@ -14,7 +14,7 @@ export class Force {
   #proved = new Set();
   #constant = new Map();
 
-  /** `onconstant` is called once, for a pen whose pressure does not change. */
+  /** `onconstant` hears true once for a pen whose pressure does not change, and false when it does after all. */
   constructor(onconstant = () => {}) {
     this.onconstant = onconstant;
   }
@@ -26,12 +26,15 @@ export class Force {
 
   /** Force of an event while it touches, N. Firefox on Linux calls a pen a mouse, so any kind may prove itself. */
   of({ pointerType, pressure }) {
-    if (!CONSTANTS.includes(pressure)) this.#proved.add(pointerType);
+    if (!CONSTANTS.includes(pressure) && !this.proved(pointerType)) {
+      this.#proved.add(pointerType);
+      if (pointerType === "pen") this.onconstant(false);
+    }
     if (this.proved(pointerType)) return this.#limited(pressure * this.full_n);
     if (pointerType === "pen") {
       const count = (this.#constant.get(pointerType) ?? 0) + 1;
       this.#constant.set(pointerType, count);
-      if (count === ENOUGH) this.onconstant();
+      if (count === ENOUGH) this.onconstant(true);
     }
     return this.set_n();
   }

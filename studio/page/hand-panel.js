@@ -1,7 +1,7 @@
 // The hand and its panel: force, the hand that moves by itself, and the readout.
 
 import { Auto } from "./auto.js";
-import { element, find, notify, recall, remember } from "./dom.js";
+import { element, find, notify, recall, remember, withdraw } from "./dom.js";
 import { Force } from "./force.js";
 import { Hand, now_s } from "./hand.js";
 import { followKeys } from "./keys.js";
@@ -51,7 +51,8 @@ function choosePath(auto) {
 
 export function startHandPanel({ surface, sound, state }) {
   const hand = new Hand((events) => sound.hand(events));
-  const force = new Force(() => notify("pen", { text: texts.hand.constant, help: texts.hand.constant_help }));
+  const force = new Force((constant) => (constant ? notify("pen", { text: texts.hand.constant, help: texts.hand.constant_help })
+    : withdraw("pen")));
   const readout = new Readout();
   const auto = new Auto({ surface, hand, force, sound });
 
@@ -112,5 +113,8 @@ export function startHandPanel({ surface, sound, state }) {
     hand.stiffness_n_m = texture.inspect.wall.stiffness_n_m;
     gives_way = Boolean(texture.inspect.contact);
   });
-  return hand;
+  return { hand, move: () => {
+    auto.start();
+    showAuto();
+  } };
 }

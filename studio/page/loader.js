@@ -7,20 +7,27 @@ import { Refusal, Silence } from "./server.js";
 import { texts } from "./texts.js";
 
 const RETRY_MS = 3000;
+/** How often a server is asked whether it is there, and how long it may take to answer. */
+const WATCH_MS = 5000;
+const PATIENCE_MS = 8000;
 
 /** Emits "shown" and "refused", with { texture, how } and { refusal, how }; `how` is what `take` was given. */
 export class Loader extends Events {
   #parts;
   #abort = new AbortController();
+  /** Of the next attempt; `null` where none is to come. */
   #timer = null;
+  #watch = null;
+  #looking = false;
 
   constructor(parts) {
     super();
     this.#parts = parts;
   }
 
-  /** Asks what the server has. */
+  /** Asks what the server has, and from then on whether it is there. */
   begin() {
+    this.#watch ??= setInterval(() => this.#look(), WATCH_MS);
     return this.#attempt(async () => {
       const { server, state } = this.#parts;
       state.set({ about: await server.about() });
@@ -37,30 +44,37 @@ export class Loader extends Events {
    */
   take(make, how) {
     const { state } = this.#parts;
-    this.#abort.abort();
-    this.#abort = new AbortController();
-    const { signal } = this.#abort;
     return this.#attempt(async () => {
+      this.#abort.abort();
+      this.#abort = new AbortController();
+      const { signal } = this.#abort;
       state.set({ busy: how });
       const texture = await make(signal);
-      await this.#show(texture, signal);
+      await this.#show(texture, how.entry?.base ?? how.base ?? texture, signal);
       this.emit("shown", { texture, how });
       state.set({ busy: false });
     }, how);
   }
 
+  /** Gives up what is asked for. */
+  cancel() {
+    this.#abort.abort();
+    this.#rest();
+    this.#parts.state.set({ busy: false });
+  }
+
   /**
    * Plays the texture that `make()` gives, as a draft: nothing else shows it, and what is shown next takes its place.
-   * Its texture, or `null` where it comes too late or the server is silent.
+   * `base` is what its sliders began at. Its texture, or `null` where it comes too late or the server is silent.
    */
-  async draft(make) {
+  async draft(make, base) {
     const { server, sound } = this.#parts;
     const { signal } = this.#abort;
     try {
       const texture = await make();
       const asset = await server.asset(texture, signal);
       if (signal.aborted) return null;
-      sound.play(asset);
+      sound.play(asset, texture, base);
       return texture;
     } catch (error) {
       if (error.name === "AbortError" || error instanceof Silence) return null;
@@ -69,10 +83,10 @@ export class Loader extends Events {
   }
 
   /** Sound first: the picture may have to be drawn. */
-  async #show(texture, signal) {
+  async #show(texture, base, signal) {
     const { server, state, surface, sound } = this.#parts;
     const asset = await server.asset(texture, signal);
-    sound.play(asset);
+    sound.play(asset, texture, base);
     state.set({ texture, asset });
     Promise.all(["png", "normal.png"].map((ending) => server.download(texture, ending, signal)))
       .then(([picture, normals]) => !signal.aborted && surface.show(picture, normals, texture.preview.width_mm))
@@ -83,7 +97,7 @@ export class Loader extends Events {
   }
 
   async #attempt(action, how) {
-    clearTimeout(this.#timer);
+    this.#rest();
     try {
       await action();
       withdraw("server");
@@ -97,6 +111,29 @@ export class Loader extends Events {
       if (!(error instanceof Refusal)) throw error;
       this.emit("refused", { refusal: error, how });
     }
+  }
+
+  /** Notices a server that has ended, and one that hangs. */
+  async #look() {
+    const { server, state } = this.#parts;
+    if (document.hidden || this.#looking || this.#timer !== null || !state.get("about")) return;
+    this.#looking = true;
+    const alive = () => server.alive(AbortSignal.timeout(PATIENCE_MS));
+    try {
+      await alive();
+    } catch (error) {
+      if (!(error instanceof Silence)) return error instanceof Refusal && notify("server", { text: error.message, help: error.help });
+      // Whatever waits for it is tried again when it is back.
+      if (state.get("busy")) this.#abort.abort(error);
+      else this.#wait(alive, undefined, error);
+    } finally {
+      this.#looking = false;
+    }
+  }
+
+  #rest() {
+    clearTimeout(this.#timer);
+    this.#timer = null;
   }
 
   #wait(action, how, { message, help }) {

@@ -5,6 +5,9 @@ import { History } from "./prompt-history.js";
 import { Suggestions } from "./suggest.js";
 import { texts } from "./texts.js";
 
+/** A second click of those who double-click comes sooner. */
+const LONG_MS = 2000;
+
 export class Prompt {
   #input = find("prompt");
   #error = find("prompt-error");
@@ -12,9 +15,14 @@ export class Prompt {
   #history;
   /** What compiled last. */
   #compiled = "";
+  #busy = false;
+  /** Whether a prompt compiles for so long that the button gives it up. */
+  #long = false;
+  #timer = null;
 
-  /** `compile` takes the text of a prompt. */
-  constructor(compile) {
+  /** `compile` takes the text of a prompt, `cancel` gives it up. */
+  constructor(compile, cancel) {
+    this.cancel = cancel;
     this.compile = (prompt) => {
       const text = prompt.trim();
       this.#input.value = text;
@@ -23,6 +31,11 @@ export class Prompt {
       else this.refuse({ message: texts.prompt.empty });
     };
     this.#history = new History(this.compile);
+    find("compile").addEventListener("click", (event) => {
+      if (!this.#long) return;
+      event.preventDefault();
+      this.cancel();
+    });
     find("prompt-form").addEventListener("submit", (event) => {
       event.preventDefault();
       this.compile(this.#input.value);
@@ -36,7 +49,16 @@ export class Prompt {
   }
 
   set busy(busy) {
+    clearTimeout(this.#timer);
+    this.#long = false;
+    this.#busy = busy;
     find("compile").textContent = busy ? texts.prompt.compiling : texts.prompt.compile;
+    if (busy) {
+      this.#timer = setTimeout(() => {
+        this.#long = true;
+        find("compile").textContent = texts.prompt.cancel;
+      }, LONG_MS);
+    }
     find("prompt-form").setAttribute("aria-busy", String(busy));
   }
 
@@ -71,6 +93,7 @@ export class Prompt {
     // An input method is composing.
     if (event.isComposing || event.altKey || event.ctrlKey || event.metaKey) return;
     if (this.#suggestions.key(event)) return event.preventDefault();
+    if (event.key === "Escape" && this.#busy) return this.cancel();
     const by = { ArrowUp: 1, ArrowDown: -1 }[event.key];
     if (by === undefined) return;
     event.preventDefault();

@@ -10,6 +10,8 @@ const LEAST = 5;
 /** Smallest second move that is shown. */
 const LEAST_SECOND = 15;
 const MOST_MATERIALS = 6;
+/** Words that may be read as one. */
+const MOST_JOINED = 3;
 /** Roles of words that move nothing. */
 const NOT_ENCODED = ["object", "denied", "tool", "left out"];
 
@@ -21,13 +23,18 @@ const plain = (word) => word.toLowerCase().replace(/[^\p{L}\p{N}-]/gu, "");
  */
 export function wordsWithRoles({ words, reading = [], corrected }) {
   if (!words?.length) return reading.map(({ text, role }) => ({ word: text, role, moved: {} }));
-  const parts = reading.flatMap(({ text, role }) => text.split(/\s+/).map((part) => ({ part: plain(part), role })));
-  return words.map(({ word, ...moved }) => {
-    const sought = plain(corrected?.said === plain(word) ? corrected.taken : word);
-    const at = parts.findIndex(({ part }) => part === sought || part.replaceAll("-", "") === sought.replaceAll("-", ""));
-    const role = at < 0 ? null : parts.splice(at, 1)[0].role;
-    return { word, role, moved };
-  });
+  const joined = (text) => plain(text).replaceAll("-", "");
+  const parts = reading.flatMap(({ text, role }) => text.split(/\s+/).map((part) => ({ part: joined(part), role })));
+  const sought = words.map(({ word }) => joined(corrected?.said === plain(word) ? corrected.taken : word));
+  const roles = sought.map(() => null);
+  for (let n = 0; n < words.length; n++) {
+    // A name may be read as one word that was written as several: cork board, corkboard.
+    for (let count = 1; roles[n] === null && count <= MOST_JOINED && n + count <= words.length; count++) {
+      const at = parts.findIndex(({ part }) => part === sought.slice(n, n + count).join(""));
+      if (at >= 0) roles.fill(parts.splice(at, 1)[0].role, n, n + count);
+    }
+  }
+  return words.map(({ word, ...moved }, n) => ({ word, role: roles[n], moved }));
 }
 
 function wordElement({ word, role, moved }) {

@@ -34,6 +34,11 @@ export class Server {
     return about;
   }
 
+  /** Whether the server is there; static files need none. */
+  async alive(signal) {
+    if (!this.#exported) await this.#answer("icon.svg", { method: "HEAD", cache: "no-store", signal });
+  }
+
   compile({ prompt, seed = 0 }, signal) {
     return this.#post("api/compile", { prompt, seed }, signal);
   }

@@ -1,7 +1,7 @@
 // The panel of the sound: switch, level, meter, device, and what went wrong.
 
 import { startDevices } from "./devices.js";
-import { find, notify, withdraw } from "./dom.js";
+import { find, notify, recall, remember, withdraw } from "./dom.js";
 import { startOutput } from "./output/panel.js";
 import { Meter } from "./readout.js";
 import { texts } from "./texts.js";
@@ -42,6 +42,21 @@ export function startSoundPanel({ sound, hand }) {
     else sound.start();
   });
 
+  const equal = find("equal");
+  equal.title = texts.sound.equal_title;
+  equal.checked = recall("equal", true) === true;
+  const turned = () => (find("turned").textContent = sound.equal && sound.trim_db ? texts.sound.turned(sound.trim_db) : "");
+  const choose = () => {
+    sound.equal = equal.checked;
+    turned();
+  };
+  equal.addEventListener("change", () => {
+    remember("equal", equal.checked);
+    choose();
+  });
+  sound.on("loaded", turned);
+  choose();
+
   // The level is not remembered: every visit begins at a safe one.
   const level = find("level");
   const update = () => {
@@ -55,6 +70,7 @@ export function startSoundPanel({ sound, hand }) {
     update();
   };
   level.addEventListener("input", update);
+  sound.on("louder", (db) => setLevel(sound.level_db - db));
   setLevel(sound.level_db);
   startOutput({ sound, setLevel });
   return startDevices(sound);

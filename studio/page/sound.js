@@ -3,11 +3,15 @@
 import { Events } from "./events.js";
 import { now_s } from "./hand.js";
 import { buildChain, FADE_S } from "./output/chain.js";
+import { levelOf, MOST_UP_DB, TARGET_DB, trimOf } from "./output/loudness.js";
 import { MODES } from "./output/modes.js";
 
 const RATE_HZ = 48000;
 /** How long a browser may take to start, ms, until that is said. */
 const PATIENCE_MS = 3000;
+
+/** Until the runtime's cross-fade to a texture has ended, s. */
+const CROSS_FADE_S = 0.05;
 
 /** When a fade has ended. */
 const silence = () => new Promise((done) => setTimeout(done, 4000 * FADE_S));
@@ -22,7 +26,7 @@ export class SoundFailure extends Error {
 }
 
 /**
- * Emits "state"; "failure" with a `SoundFailure`; "loaded" and "refused" with the renderer's status of a texture; its "ticks";
+ * Emits "state"; "louder" with what the level has to go up or down by, dB; "failure" with a `SoundFailure`; "loaded" and "refused" with the renderer's status of a texture; its "ticks";
  * "limit" with what the limiter takes off, dB; "path" with the phase of the hand that moves by itself, or null when another
  * took its place.
  */
@@ -33,6 +37,8 @@ export class Sound extends Events {
   mode = "plain";
   level_db = MODES.plain.start_db;
   latency_s = 0;
+  /** Whether the browser lets the page sound before anybody has touched it. */
+  allowed = false;
   /** Stopped by a person, so that only a person starts it again. */
   stopped = false;
   /** Sink that was chosen; empty is the system's default. */
@@ -41,13 +47,22 @@ export class Sound extends Events {
   chain = null;
   #context = null;
   #gains_db = null;
-  /** What this texture is turned down by so that others are as loud, dB. */
+  #equal = true;
+  /** What plays, and what its sliders began at. */
+  #texture = null;
+  #base = null;
   #trim_db = 0;
+  /** Level of what was played last, as strong as it is, dB. */
+  #strength_db = TARGET_DB - MOST_UP_DB;
+  /** While the nodes are built. */
+  #building = null;
   #path = null;
   /** The last events of the hand. */
   #touch = null;
   #asset = null;
   #loaded = false;
+  /** Textures that were sent to the renderer. */
+  #sent = 0;
   #file;
 
   /** `file` gives the bytes of a file of the page. */
@@ -62,6 +77,15 @@ export class Sound extends Events {
     return this.latency_s + (outputLatency || baseLatency);
   }
 
+  /** Builds the nodes, silent, so that the first stroke is heard. */
+  async prepare() {
+    // What fails now is said when somebody wants the sound.
+    await this.#built().catch(() => this.#drop());
+    if (this.state !== "off") return;
+    this.allowed = this.#context?.state === "running";
+    this.#context?.suspend();
+  }
+
   /** Starts or resumes; call it from a click, a key or a touch. */
   async start() {
     if (this.state === "on") return;
@@ -70,7 +94,7 @@ export class Sound extends Events {
     if (this.state === "starting") return;
     this.#enter("starting");
     try {
-      if (!this.#context) await this.#build();
+      await this.#built();
       // Browsers hold back sound without a gesture, and then this promise too.
       await Promise.race([this.#context.resume(), new Promise((done) => setTimeout(done, PATIENCE_MS))]);
       if (this.#context.state === "running") this.#running();
@@ -109,9 +133,20 @@ export class Sound extends Events {
     this.emit("state", this.state);
   }
 
-  set trim(trim_db) {
-    this.#trim_db = trim_db;
-    this.chain?.trim(trim_db);
+  /** Whether all textures are equally loud, rather than each as strong as it is. */
+  get equal() {
+    return this.#equal;
+  }
+
+  set equal(equal) {
+    this.#equal = equal;
+    this.#strength_db = levelOf(this.#texture) ?? this.#strength_db;
+    this.#trim();
+  }
+
+  /** What plays is turned up or down by this, dB. */
+  get trim_db() {
+    return this.#trim_db;
   }
 
   /** Gains of the equaliser, dB. */
@@ -120,10 +155,31 @@ export class Sound extends Events {
     if (this.chain) this.chain.equaliser.gains_db = gains_db;
   }
 
-  /** Plays another texture: from its first tick on, or by a cross-fade where one plays. */
-  play(asset) {
+  /** Plays another texture: from its first tick on, or by a cross-fade where one plays; `base` is what its sliders began at. */
+  play(asset, texture, base = texture) {
     this.#asset = asset;
+    this.#texture = texture;
+    this.#base = base;
+    this.#follow();
+    this.#trim(true);
     if (this.chain) this.#send();
+  }
+
+  /** Where textures are as strong as they are, none comes as a shock. */
+  #follow() {
+    const level_db = levelOf(this.#texture);
+    if (level_db === null) return;
+    const louder_db = level_db - this.#strength_db - MOST_UP_DB;
+    this.#strength_db = level_db;
+    if (!this.#equal && louder_db > 0) this.emit("louder", louder_db);
+  }
+
+  /** What `changes` to another texture gets quieter before the cross-fade, and louder after it. */
+  #trim(changes = false) {
+    const trim_db = this.#equal && this.#texture ? trimOf(this.#texture, this.#base) : 0;
+    const waits = changes && trim_db > this.#trim_db;
+    this.#trim_db = trim_db;
+    if (!waits) this.chain?.trim(trim_db);
   }
 
   /** Events of the hand; nobody hears them while the sound is off. The touch that starts it is felt when it is on. */
@@ -158,13 +214,18 @@ export class Sound extends Events {
     return this.state === "on" ? this.chain.measure() : { peak: 0, rms: 0 };
   }
 
+  #built() {
+    this.#building ??= this.#build();
+    return this.#building;
+  }
+
   async #build() {
     if (!globalThis.AudioContext || !globalThis.AudioWorkletNode) throw new SoundFailure("no_worklet");
     const context = new AudioContext({ sampleRate: RATE_HZ, latencyHint: "interactive" });
     this.#context = context;
     if (context.sampleRate !== RATE_HZ) throw new SoundFailure("wrong_rate", context.sampleRate);
     // Within the gesture, before anything is awaited.
-    context.resume().catch(() => {});
+    if (this.state === "starting") context.resume().catch(() => {});
     context.onerror = () => this.#fail(new SoundFailure("no_device"));
     const chain = await buildChain(context, this.#file("asperity.wasm"), this.mode);
     if (this.sink) await context.setSinkId(this.sink).catch(() => (this.sink = ""));
@@ -193,7 +254,7 @@ export class Sound extends Events {
   }
 
   #send() {
-    this.#post({ type: this.#loaded ? "swap" : "load", asset: this.#asset });
+    this.#post({ type: this.#loaded && this.state === "on" ? "swap" : "load", asset: this.#asset, id: ++this.#sent });
     this.#loaded = true;
   }
 
@@ -207,7 +268,10 @@ export class Sound extends Events {
     const { about, name, latency_s } = message;
     if (about === "module" && name === "ok") this.latency_s = latency_s;
     else if (about === "load" || about === "swap") {
-      if (name === "ok") this.emit("loaded", message);
+      if (name === "ok") {
+        if (message.id === this.#sent) this.chain.trim(this.#trim_db, CROSS_FADE_S);
+        this.emit("loaded", message);
+      }
       // A later texture took its place.
       else if (name !== "replaced") this.emit("refused", message);
     } else if (name !== "ok") this.#fail(new SoundFailure("failed", `${about}: ${name}`));
@@ -229,17 +293,21 @@ export class Sound extends Events {
     else if (this.#touch) this.hand(this.#touch);
   }
 
-  /** Gives up the context; the next start builds another. */
   #fail(failure) {
+    this.#drop();
+    this.#enter("off");
+    this.emit("failure", failure);
+  }
+
+  /** Gives up the context; the next start builds another. */
+  #drop() {
     const context = this.#context;
     this.#context = null;
+    this.#building = null;
     this.chain = null;
-    this.#enter("off");
-    if (context) {
-      context.onstatechange = null;
-      context.close().catch(() => {});
-    }
-    this.emit("failure", failure);
+    if (!context) return;
+    context.onstatechange = null;
+    context.close().catch(() => {});
   }
 
   /** Fades to the level, or to silence where `on` is 0 and until the mode is the one chosen. */

@@ -1,6 +1,8 @@
 // The page's entry: builds the parts and lets them hear of each other.
 
+import { startBeginning } from "./begin.js";
 import { startDevicePanel } from "./device/panel.js";
+import { startDrawers } from "./drawers.js";
 import { fillTexts, find, notify, recall, remember } from "./dom.js";
 import { Events } from "./events.js";
 import { In } from "./files/in.js";
@@ -64,9 +66,10 @@ addEventListener("unhandledrejection", broken);
 
 fillTexts();
 startTheme();
+startDrawers();
 const surface = new Surface();
 const sound = new Sound((name) => server.file(name));
-const hand = startHandPanel({ surface, sound, state });
+const { hand, move } = startHandPanel({ surface, sound, state });
 startSoundPanel({ sound, hand });
 const loader = new Loader({ server, state, surface, sound });
 startTexturePanels({ state, loader });
@@ -86,4 +89,5 @@ sound.on("ticks", (ticks) => state.get("about")?.device || plots.addTicks(ticks)
 state.on(["texture"], ({ texture, asset }) => plots.setTexture(texture && texture.inspect, asset));
 startDevicePanel({ server, state, surface, plots });
 find("prompt").focus({ preventScroll: true });
+startBeginning({ state, server, loader, sound, move });
 loader.begin();

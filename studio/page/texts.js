@@ -15,6 +15,16 @@ function apart(old, now, digits) {
 export const texts = {
   plots,
   live: "Live plots",
+  keys: {
+    title: "Keys",
+    close: "Close",
+    all: [
+      ["Drag, or arrows", "stroke the surface, while it has the focus"], ["Press, or Space", "tap it"],
+      ["Shift", "presses twice as hard"], ["Wheel, + − 0", "zoom; the wheel changes the force while you press"],
+      ["1 to 4", "switch the slots of the comparison"], ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
+      ["↑ in the prompt", "brings earlier prompts"], ["Escape in the prompt", "gives up what takes long"], ["?", "shows and hides this list"],
+    ],
+  },
   title: "Asperity Studio",
   titled: (name) => `${name} – Asperity Studio`,
   edition: (version, library) => (library ? `${library.name}, ${number(library.textures, 0)} textures · ${version}` : version),
@@ -27,6 +37,7 @@ export const texts = {
     placeholder: "rough abrasive sheet with gritty particles",
     compile: "Compile",
     compiling: "Compiling …",
+    cancel: "Cancel",
     hint: "↑ brings earlier prompts",
     suggestions: "Known materials and qualities",
     suggested: (count) => (count === 1 ? "1 suggestion" : `${count} suggestions`),
@@ -58,6 +69,7 @@ export const texts = {
   },
 
   nearest: {
+    drawer: "Nearest materials and earlier prompts",
     title: "Nearest materials",
     none: "Compile a prompt to see what it lies near.",
     opened: "Neighbours are found for prompts; this texture was edited, mixed or opened.",
@@ -75,8 +87,7 @@ export const texts = {
   surface: {
     empty: "No texture yet",
     label: "Surface to stroke",
-    hint: "Drag to stroke, press to tap; the wheel zooms, or changes the force while you press. "
-      + "Keys: arrows stroke, Space presses, Shift doubles the force, + − 0 zoom.",
+    hint: "Drag to stroke it, press to tap; ? shows the keys.",
     zoom: "Zoom",
     zoom_in: "Zoom in",
     zoom_out: "Zoom out",
@@ -97,6 +108,7 @@ export const texts = {
   },
 
   readout: {
+    drawer: "Numbers and command line",
     speed: "Speed", force: "Force", depth: "Depth", friction: "Friction", vibration: "Vibration",
     speed_unit: "mm/s", force_unit: "N", depth_unit: "mm", friction_unit: "N", vibration_unit: "m/s² RMS",
     none: "–",
@@ -110,6 +122,7 @@ export const texts = {
 
   steer: {
     panel: "Session and comparison",
+    change: "Change in words, blend and compose",
     title: "How it feels",
     finer: "Finer",
     axes: { rough: "Rough", slippery: "Slippery", hard: "Hard", sharp: "Sharp" },
@@ -174,10 +187,6 @@ export const texts = {
     compare: {
       title: "Compare",
       title_blind: "Blind comparison",
-      match: "Match levels",
-      match_title: "Turn every slot down to the level of the quietest, above 40 Hz at 100 mm/s and 1 N",
-      matched: "Slots matched at 100 mm/s, 1 N",
-      matched_by: (letter, db) => `Slots matched at 100 mm/s, 1 N: ${letter} ${number(db, 1)} dB`,
       keys: "Keys 1–4",
       keys_title: "Keys 1 to 4 switch the slots, except where text is written",
       blind: "Blind", reveal: "Reveal",
@@ -214,9 +223,14 @@ export const texts = {
     latency: (ms) => `latency ${number(ms, 0)} ms`,
     level: "Level",
     level_text: (db) => `${db > 0 ? "+" : db < 0 ? "−" : ""}${number(Math.abs(db), 0)} dB`,
+    equal: "All equally loud",
+    equal_title: "Turns every texture to the same level above 40 Hz in a stroke of 100 mm/s under 1 N; off, each is as strong as it is. "
+      + "Devices, files and forces keep its strength.",
+    turned: (db) => `turned ${db < 0 ? "down" : "up"} by ${number(Math.abs(db), 0)} dB`,
     meter: "Output level in dB of full scale",
     meter_text: (db) => (db <= -60 ? "silent" : `peak −${number(Math.abs(db), 0)} dBFS`),
     limiting: "limiting",
+    settings: "Sound settings",
     device: "Output",
     default_device: "System default",
     device_number: (number) => `Output ${number}`,

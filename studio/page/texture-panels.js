@@ -55,7 +55,7 @@ function invite(compile) {
 }
 
 export function startTexturePanels({ state, loader }) {
-  const prompt = new Prompt((text) => loader.compile(text));
+  const prompt = new Prompt((text) => loader.compile(text), () => loader.cancel());
   invite(prompt.compile);
   showNearest(null, prompt.compile);
 
@@ -68,7 +68,7 @@ export function startTexturePanels({ state, loader }) {
     showReading(from.compiled);
     showNearest(from, prompt.compile);
     if (how.kind === "undo" && from.compiled) prompt.bring(from.compiled.prompt);
-    if (how.kind !== "prompt") return;
+    if (how.kind !== "prompt" || how.begins) return;
     prompt.accept(how.prompt);
     announce(texts.prompt.compiled(texture.name, texture.compiled ? certaintyText(texture.compiled) : ""));
   });

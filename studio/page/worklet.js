@@ -150,7 +150,7 @@ class AsperityProcessor extends AudioWorkletProcessor {
     }
   }
 
-  load({ asset, seed = 1, id }) {
+  load({ asset, seed = 0, id }) {
     const bits = BigInt.asUintN(64, BigInt(seed));
     const status = this.module.load(this.write(asset), Number(bits >> 32n), Number(bits & 0xffffffffn));
     if (status === OK) {

@@ -52,12 +52,9 @@ enum Storage {
     Folder { path: PathBuf, files: Vec<PathBuf> },
 }
 
-/// A path that is neither a library nor a folder of assets.
+/// A folder that has no textures.
 #[derive(Debug, Error)]
 pub enum CollectionError {
-    /// A single asset.
-    #[error("{path}: one asset, not a library", path = .0.display())]
-    Asset(PathBuf),
     /// A folder without assets.
     #[error("{path}: no asset (.asp) in this folder", path = .0.display())]
     Empty(PathBuf),
@@ -74,7 +71,6 @@ pub enum CollectionError {
 impl Diagnostic for CollectionError {
     fn remedy(&self) -> String {
         match self {
-            Self::Asset(_) => "give its folder, or start without it and open it on the page".into(),
             Self::Empty(_) => "give a folder of assets, or a library (.aspl)".into(),
             Self::Unreadable { source, .. } => system::remedy(source)
                 .unwrap_or("give a folder that you may read")
@@ -84,18 +80,19 @@ impl Diagnostic for CollectionError {
 }
 
 impl Collection {
-    /// Opens a library (.aspl), or a folder with assets (.asp), and checks every texture: checksums, structure,
+    /// Opens a library (.aspl), an asset (.asp), or a folder with assets, and checks every texture: checksums, structure,
     /// meaning. What the page shows of all of them is found in the same pass.
     ///
     /// # Errors
-    /// For a path that is neither, and for every texture of a folder, or the first of a library, that is damaged.
+    /// For a path that is none of these, and for every texture of a folder, or the first of a library, that is damaged.
     pub fn open(path: &Path) -> Result<Self, Failures> {
         if path.is_dir() {
             return Self::folder_of(path);
         }
         let textures = Textures::open(path).map_err(one)?;
         if !textures.is_library() {
-            return Err(one(CollectionError::Asset(path.to_owned())));
+            let folder = path.parent().unwrap_or(path).to_owned();
+            return Self::of_files(path, folder, vec![path.to_owned()]);
         }
         Self::library(textures, String::new()).map_err(one)
     }
@@ -141,6 +138,11 @@ impl Collection {
         if files.is_empty() {
             return Err(one(CollectionError::Empty(path.to_owned())));
         }
+        Self::of_files(path, path.to_owned(), files)
+    }
+
+    /// Assets of a folder; the path names all of them.
+    fn of_files(named: &Path, path: PathBuf, files: Vec<PathBuf>) -> Result<Self, Failures> {
         let row = |meter: &mut Meter, file: &PathBuf| {
             let bytes = asset_of(file)?;
             let parsed = Asset::parse(&bytes);
@@ -165,12 +167,9 @@ impl Collection {
             return Err(damaged);
         }
         Ok(Self {
-            name: name(path),
+            name: name(named),
             id: String::new(),
-            storage: Storage::Folder {
-                path: path.to_owned(),
-                files,
-            },
+            storage: Storage::Folder { path, files },
             elsewhere: false,
             rows,
             columns: OnceLock::new(),

@@ -26,7 +26,7 @@ pub(crate) const FILES: &[File] = files! {
     "text/css; charset=utf-8": "studio.css" "device/device.css" "files/files.css" "gallery/gallery.css" "output/output.css" "plots/plots.css"
         "steer/steer.css";
     "text/javascript; charset=utf-8":
-        "auto.js" "devices.js" "dom.js" "events.js" "force.js" "hand-panel.js" "hand.js" "keys.js" "limiter.js"
+        "auto.js" "begin.js" "devices.js" "dom.js" "drawers.js" "events.js" "force.js" "hand-panel.js" "hand.js" "keys.js" "limiter.js"
         "lit.js" "loader.js" "path.js" "pointer.js" "prompt-history.js" "prompt.js" "reading.js" "readout.js"
         "server.js" "sound-panel.js" "sound.js" "studio.js" "suggest.js" "surface.js" "texts.js" "texture-panels.js"
         "view.js" "worklet.js"
@@ -35,7 +35,7 @@ pub(crate) const FILES: &[File] = files! {
         "gallery/attributes.js" "gallery/compare.js" "gallery/filters.js" "gallery/gallery.js" "gallery/grid.js"
         "gallery/library.js" "gallery/scatter.js" "gallery/span.js" "gallery/thumbnails.js"
         "offline/module.js" "offline/offline.js" "offline/worker.js"
-        "output/chain.js" "output/equaliser-panel.js" "output/equaliser.js" "output/modes.js" "output/motors.js"
+        "output/chain.js" "output/equaliser-panel.js" "output/equaliser.js" "output/loudness.js" "output/modes.js" "output/motors.js"
         "output/panel.js" "output/response.js" "output/shift.js" "output/tones.js"
         "plots/axes.js" "plots/controls.js" "plots/csv.js" "plots/fft.js" "plots/field.js"
         "plots/figure.js" "plots/force.js" "plots/friction.js" "plots/models.js" "plots/plane-pointer.js"

@@ -195,11 +195,16 @@ fn a_library_and_a_folder_are_checked_and_named() {
     fs::write(at("damaged.aspl"), &library[..library.len() - 9]).expect("room");
     fs::write(at("assets/c.asp"), &asset[..99]).expect("room");
     fs::write(at("one.asp"), &asset).expect("room");
+    assert_eq!(
+        Collection::open(&at("one.asp"))
+            .expect("an asset")
+            .textures(),
+        1
+    );
     for (path, named) in [
         ("empty", "no asset"),
         ("damaged.aspl", "library"),
         ("assets", "c.asp"),
-        ("one.asp", "one asset, not a library"),
         ("missing.aspl", "missing.aspl"),
     ] {
         let failures = Collection::open(&at(path)).err().unwrap_or_default();

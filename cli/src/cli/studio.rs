@@ -20,8 +20,8 @@ Examples:
   asperity studio hatt.aspl --export page"
 )]
 pub(crate) struct Studio {
-    /// A library (.aspl), or a folder of assets (.asp), to have at hand
-    #[arg(value_name = "LIBRARY|FOLDER")]
+    /// A library (.aspl), an asset (.asp), or a folder of assets, to have at hand
+    #[arg(value_name = "LIBRARY|ASSET|FOLDER")]
     pub(crate) collection: Option<PathBuf>,
     /// Port to listen on [default: a free one]
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]

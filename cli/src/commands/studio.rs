@@ -37,12 +37,11 @@ fn serve(
     on_interrupt(move || stopper.stop()).map_err(one)?;
     let url = server.url();
     console.text(&format!("{url}\n")).map_err(one)?;
-    if !args.no_open {
-        show(&url, move |error| {
-            let (cause, remedy) = texts(&error);
-            console.warn(&format!("{cause}; {remedy}"));
-        });
-    }
+    let failed = move |error| {
+        let (cause, remedy) = texts(&error);
+        console.warn(&format!("{cause}; {remedy}"));
+    };
+    let _redirect = (!args.no_open).then(|| show(&url, failed));
     server.run();
     Ok(())
 }

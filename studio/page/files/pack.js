@@ -6,7 +6,7 @@ import { texts } from "../texts.js";
 
 /** Bytes of a texture's name in a library. */
 const NAME_BYTES = 64;
-/** What has a file of its own is listed, but not chosen at first. */
+/** What has a file of its own is listed, but not chosen at first; neither is what the page began with. */
 const HAS_FILE = ["open", "pick"];
 
 const bytesOf = (text) => new TextEncoder().encode(text).length;
@@ -35,7 +35,7 @@ export class Pack {
     this.element = element("section", { class: "session-library", "data-needs": "server" }, element("h3", {}, texts.files.session),
       element("p", { class: "small" }, texts.files.session_hint), this.list, this.error, this.button);
     this.#count();
-    loader.on("shown", ({ texture, how: { kind } }) => this.#add(texture, !HAS_FILE.includes(kind)));
+    loader.on("shown", ({ texture, how: { kind, begins } }) => this.#add(texture, !begins && !HAS_FILE.includes(kind)));
   }
 
   #add(texture, chosen) {

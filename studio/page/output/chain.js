@@ -1,6 +1,6 @@
 // The nodes from the renderer to the device, alike in a page's context and in one that renders offline:
 //
-//   renderer → trim → stages of the mode → drive → equaliser → limiter → volume → meter → device
+//   renderer → input → trim → stages of the mode → drive → equaliser → limiter → volume → meter → device
 //                                            tones ↗
 //
 // A level above 0 dB drives the limiter, one below turns down what leaves it. So no output exceeds the level, whatever
@@ -36,7 +36,8 @@ export class Chain {
     this.renderer = new AudioWorkletNode(context, "asperity",
       { numberOfInputs: 0, outputChannelCount: [1], processorOptions: { module } });
     this.input = new GainNode(context);
-    this.renderer.connect(this.input);
+    this.loudness = new GainNode(context);
+    this.renderer.connect(this.input).connect(this.loudness);
     [this.drive, this.volume] = [1 / FULL_SCALE_M_S2, 0].map((gain) => new GainNode(context, { gain }));
     this.equaliser = new Equaliser(context);
     this.limiter = new AudioWorkletNode(context, "limiter", { outputChannelCount: [1], processorOptions: { ceiling: CEILING } });
@@ -71,12 +72,12 @@ export class Chain {
   set mode(name) {
     if (this.#mode) {
       const { first, last } = this.#ends();
-      this.input.disconnect(first);
+      this.loudness.disconnect(first);
       last?.disconnect();
     }
     this.#mode = name;
     const { first, last } = this.#ends();
-    this.input.connect(first);
+    this.loudness.connect(first);
     last?.connect(this.drive);
     this.route();
   }
@@ -109,9 +110,12 @@ export class Chain {
     this.gates.forEach(({ gain }, n) => gain.setTargetAtTime(channels.includes(n) ? 1 : 0, at_s, FADE_S / 10));
   }
 
-  /** Turns down what the renderer gives. */
-  trim(trim_db) {
-    this.input.gain.setTargetAtTime(fromDb(trim_db), this.context.currentTime, FADE_S);
+  /** Turns what the renderer gives up or down for ears: at once, or after some seconds. */
+  trim(trim_db, after_s = 0) {
+    const { gain } = this.loudness;
+    const at_s = this.context.currentTime + after_s;
+    gain.cancelScheduledValues(at_s);
+    gain.setTargetAtTime(fromDb(trim_db), at_s, after_s > 0 ? FADE_S : FADE_S / 10);
   }
 
   /** Fades to a level, or to silence where `on` is 0. */

@@ -9,8 +9,8 @@ export const SHIFT_HZ = 250;
 
 /** `start_db`: the level that a mode begins with; `channels`: those that play, of a device with that many at least. */
 export const MODES = {
-  plain: { start_db: -20 },
-  ear: { start_db: -20 },
+  plain: { start_db: -6 },
+  ear: { start_db: -6 },
   coil: { start_db: -50 },
   dualsense: { start_db: -50, channels: [2, 3] },
 };

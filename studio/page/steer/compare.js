@@ -1,4 +1,4 @@
-// Four slots to compare textures by ear, with their levels matched, and blind. For comparison only: nothing here proposes
+// Four slots to compare textures by ear, and blind. For comparison only: nothing here proposes
 // a texture.
 
 import { Events } from "../events.js";
@@ -13,17 +13,14 @@ export class Compare extends Events {
   heard = -1;
   /** Order of the slots while they are compared blindly, else `null`. */
   order = null;
-  #matched = false;
   #loader;
   #session;
-  #sound;
   #state;
 
-  constructor({ loader, session, sound, state }) {
+  constructor({ loader, session, state }) {
     super();
     this.#loader = loader;
     this.#session = session;
-    this.#sound = sound;
     this.#state = state;
     session.on("change", () => this.#shown());
   }
@@ -32,29 +29,10 @@ export class Compare extends Events {
     return this.slots.flatMap((entry, n) => (entry ? [{ n, letter: LETTERS[n], entry }] : []));
   }
 
-  get matched() {
-    return this.#matched;
-  }
-
-  set matched(matched) {
-    this.#matched = matched;
-    this.#turn();
-    this.emit("change");
-  }
-
-  /** How far a slot is turned down to the quietest one, dB. */
-  gain_db(n) {
-    const level_db = (entry) => entry?.texture.inspect.attributes.rough_db;
-    const levels = this.filled.map(({ entry }) => level_db(entry)).filter(Number.isFinite);
-    const own = level_db(this.slots[n]);
-    return Number.isFinite(own) ? Math.min(...levels) - own : 0;
-  }
-
   /** Puts what is shown into a slot. */
   put(n) {
     this.slots[n] = this.#session.current;
     this.heard = n;
-    this.#turn();
     this.emit("change");
   }
 
@@ -90,14 +68,13 @@ export class Compare extends Events {
     if (n === undefined) return;
     // Played alone: nothing else on the page hears of it.
     try {
-      if (!(await this.#loader.draft(async () => this.slots[n].texture))) return;
+      if (!(await this.#loader.draft(async () => this.slots[n].texture, this.slots[n].base))) return;
     } catch {
       // The server has it no longer, which cannot be said blindly.
       this.heard = n;
       return this.reveal();
     }
     this.heard = n;
-    this.#turn();
     this.emit("change");
   }
 
@@ -112,11 +89,6 @@ export class Compare extends Events {
     if (this.order) this.#end();
     const { current } = this.#session;
     if (this.slots[this.heard] !== current) this.heard = this.slots.indexOf(current);
-    this.#turn();
     this.emit("change");
-  }
-
-  #turn() {
-    this.#sound.trim = this.#matched && this.heard >= 0 ? this.gain_db(this.heard) : 0;
   }
 }

@@ -37,6 +37,7 @@ export class Feel {
     this.#parts = parts;
     const { state, loader, session } = parts;
     this.#live = new Live(loader, (texture) => this.#heard(texture), (refusal) => showRefusal(this.#error, refusal));
+    this.#sliders.title = texts.steer.scale;
     find("feel").append(this.#sliders, this.#finer, this.#note, this.#encode, this.#error);
     state.on(["about"], ({ about }) => about && this.#build(about.sliders?.length ? about.sliders : UNSCALED));
     session.on("change", () => {
@@ -82,7 +83,7 @@ export class Feel {
     this.#note.classList.toggle("warning", warnings.length > 0);
     this.#note.textContent = offered ? texts.steer.no_latent
       : entry && about?.prompts === false ? texts.steer.no_prompts
-      : warnings.length ? warnings.join("; ") : texts.steer.scale;
+      : warnings.join("; ");
   }
 
   #moved(axis, position) {
@@ -92,7 +93,7 @@ export class Feel {
     this.#steps = Object.fromEntries(this.#axes.map(({ up }) => [up, steps[up]]).filter(([, by]) => by));
     const wanted = this.#steps;
     state.set({ draft: true });
-    this.#live.hear(`draft ${this.#key(base)}`, () => drafted(server, base, wanted));
+    this.#live.hear(`draft ${this.#key(base)}`, () => drafted(server, base, wanted), base);
   }
 
   #released() {

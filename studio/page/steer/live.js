@@ -17,16 +17,16 @@ export class Live {
     this.#refused = refused;
   }
 
-  /** Plays what `make()` gives as a draft. The same `key` means the same texture. */
-  async hear(key, make) {
-    this.#next = { key, make };
+  /** Plays what `make()` gives as a draft. The same `key` means the same texture; `base` is what sliders began at. */
+  async hear(key, make, base) {
+    this.#next = { key, make, base };
     if (this.#running) return;
     this.#running = true;
     while (this.#next) {
-      const { key, make } = this.#next;
+      const { key, make, base } = this.#next;
       this.#next = null;
       try {
-        const texture = await this.#loader.draft(() => this.#once(key, make));
+        const texture = await this.#loader.draft(() => this.#once(key, make), base);
         if (texture) this.#heard(texture);
       } catch (refusal) {
         if (this.#next) continue;

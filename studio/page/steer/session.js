@@ -57,7 +57,7 @@ export class Session extends Events {
   sound() {
     const { current } = this;
     // Where the server has it no longer, what plays stays.
-    if (current) this.#loader.draft(async () => current.texture).catch(() => {});
+    if (current) this.#loader.draft(async () => current.texture, current.base).catch(() => {});
   }
 
   #step(by) {

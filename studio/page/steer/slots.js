@@ -17,14 +17,13 @@ function check(id, label, title, changed) {
 
 /** Returns whether the keys 1 to 4 switch. */
 export function startSlots({ server, session }, compare) {
-  const match = check("match", said.match, said.match_title, (on) => (compare.matched = on));
   const keys = check("slot-keys", said.keys, said.keys_title, (on) => remember("slot-keys", on));
   keys.input.checked = recall("slot-keys", true) === true;
   const blind = element("button", { type: "button", id: "blind", class: "quiet", onclick: () => turn() });
   const told = element("p", { class: "small told", role: "status" });
   const slots = element("div", { class: "slots", role: "group", "aria-labelledby": "compare-title" });
   find("compare").append(
-    element("div", { class: "row" }, element("h2", { id: "compare-title" }, said.title), told, match.element, keys.element, blind), slots);
+    element("div", { class: "row" }, element("h2", { id: "compare-title" }, said.title), told, keys.element, blind), slots);
 
   let revealed = "";
   const turn = () => {
@@ -55,14 +54,13 @@ export function startSlots({ server, session }, compare) {
   element("span", { class: "letter" }, "?"), named(String(at + 1))));
 
   const show = () => {
-    const { order, filled, matched } = compare;
+    const { order, filled } = compare;
     const focused = [...slots.children].findIndex((slot) => slot.contains(document.activeElement));
     slots.replaceChildren(...(order ? order.map(hidden) : compare.slots.map(open)));
     if (focused >= 0) slots.children[focused]?.firstElementChild.focus();
     blind.textContent = order ? said.reveal : said.blind;
     blind.disabled = !order && filled.length < 2;
-    const level = !matched ? "" : order || compare.heard < 0 ? said.matched : said.matched_by(LETTERS[compare.heard], compare.gain_db(compare.heard));
-    told.textContent = [order ? "" : revealed, level].filter(Boolean).join(" · ");
+    told.textContent = order ? "" : revealed;
   };
   compare.on("change", show);
   show();

@@ -11,6 +11,7 @@ use asperity_studio::{
     Studio, show,
 };
 use hdrhistogram::Histogram;
+use tempfile::TempPath;
 
 use super::Arguments;
 use crate::error::Plain;
@@ -20,6 +21,8 @@ const DIGITS: u8 = 3;
 
 /// Live data of a running loop, for the studio.
 pub(super) struct Live {
+    /// From which the browser opens the page.
+    _redirect: Option<TempPath>,
     device: LiveDevice,
     /// Ticks since they were handed over last.
     ticks: Vec<LiveTick>,
@@ -59,15 +62,15 @@ impl Live {
                 "end other programs, or leave out --studio",
             )
         })?;
-        if !arguments.no_open {
-            show(&url, move |error| {
-                let (cause, remedy) = texts(&error);
-                console.warn(&format!("{cause}; {remedy}"));
-            });
-        }
+        let failed = move |error| {
+            let (cause, remedy) = texts(&error);
+            console.warn(&format!("{cause}; {remedy}"));
+        };
+        let redirect = (!arguments.no_open).then(|| show(&url, failed)).flatten();
         // These bounds are those that the type allows with so many digits.
         let histogram = || Histogram::new(DIGITS).unwrap_or_else(|_| unreachable!("3 digits"));
         Ok(Self {
+            _redirect: redirect,
             device,
             ticks: Vec::new(),
             wakeup_ns: histogram(),
