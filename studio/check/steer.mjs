@@ -70,7 +70,7 @@ function session({ assert }) {
   const loader = Object.assign(new Events(), { take: (make, how) => loader.show(how.entry.texture, how),
     show: (texture, how) => loader.emit("shown", { texture, how }) });
   const kept = new Session(loader);
-  const texture = (n) => ({ id: `${n}` });
+  const texture = (n) => ({ id: `${n}`, name: "", inspect: {} });
   for (let n = 0; n < 260; n++) loader.show(texture(n), { kind: "prompt" });
   assert(kept.entries.length === 200 && kept.current.texture.id === "259", "200 textures are kept for undo, the last ones");
   for (let n = 0; n < 300; n++) kept.undo();
@@ -177,7 +177,7 @@ async function refusals(visit, { assert }) {
   assert((await page.textContent("#surface-title")) === "wet ice", "a texture that the server has no longer is said");
   await page.unroute("**/*.worklet.asp", lose);
   const made = await after(page, () => page.click("[data-key=gone] button"));
-  assert(made.told.includes("cork") && (await page.$$("[data-key=gone]")).length === 0, "and made again by its own steps");
+  assert(made.told.includes("cork") && (await page.$$("[data-key=gone]")).length === 0, "and can be asked for again");
   assert((await page.inputValue("#prompt")) === "cork", "with its prompt");
   // The browser logs refused requests by itself.
   visit.errors.splice(0, visit.errors.length, ...visit.errors.filter((text) => !text.includes("status of 4")));

@@ -4,10 +4,13 @@ import { texts } from "./texts.js";
 
 const reduced = matchMedia("(prefers-reduced-motion: reduce)");
 
-/** Shows the first texture of the studio's library, or else the first example. */
-function showFirst({ state, server, loader }) {
-  state.on(["about"], ({ about, texture, busy }) => {
-    if (!about || texture || busy) return;
+/** Shows what the project had last, the first texture of the studio's library, or the first example. */
+function showFirst({ state, server, loader, restore }) {
+  let begun = false;
+  state.on(["about"], async ({ about, texture, busy }) => {
+    if (!about || texture || busy || begun) return;
+    begun = true;
+    if (await restore().catch(() => false)) return;
     const { library, prompts, opens } = about;
     if (library?.id) {
       return loader.take(async (signal) => server.pick(await server.library(library.id, signal), 0, signal), { kind: "pick", name: library.name });
@@ -17,9 +20,9 @@ function showFirst({ state, server, loader }) {
   });
 }
 
-/** `move()` starts the hand that moves by itself. */
-export function startBeginning({ state, server, loader, sound, move }) {
-  showFirst({ state, server, loader });
+/** `move()` starts the hand that moves by itself, `restore()` brings back a project, if there is one. */
+export function startBeginning({ state, server, loader, sound, move, restore }) {
+  showFirst({ state, server, loader, restore });
   const prepared = sound.prepare();
   if (reduced.matches) return;
   let begun = false;

@@ -8,8 +8,8 @@ import { texts } from "./texts.js";
 
 const RETRY_MS = 3000;
 /** How often a server is asked whether it is there, and how long it may take to answer. */
-const WATCH_MS = 5000;
-const PATIENCE_MS = 8000;
+const WATCH_MS = 3000;
+const PATIENCE_MS = 5000;
 
 /** Emits "shown" and "refused", with { texture, how } and { refusal, how }; `how` is what `take` was given. */
 export class Loader extends Events {
@@ -65,16 +65,16 @@ export class Loader extends Events {
 
   /**
    * Plays the texture that `make()` gives, as a draft: nothing else shows it, and what is shown next takes its place.
-   * `base` is what its sliders began at. Its texture, or `null` where it comes too late or the server is silent.
+   * `from.base` is what its sliders began at. Its texture, or `null` where it comes too late or the server is silent.
    */
-  async draft(make, base) {
+  async draft(make, from = {}) {
     const { server, sound } = this.#parts;
     const { signal } = this.#abort;
     try {
       const texture = await make();
       const asset = await server.asset(texture, signal);
       if (signal.aborted) return null;
-      sound.play(asset, texture, base);
+      sound.play(asset, texture, from.base);
       return texture;
     } catch (error) {
       if (error.name === "AbortError" || error instanceof Silence) return null;

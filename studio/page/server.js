@@ -34,6 +34,11 @@ export class Server {
     return about;
   }
 
+  /** Whether static files take the place of a server. */
+  get exported() {
+    return this.#exported;
+  }
+
   /** Whether the server is there; static files need none. */
   async alive(signal) {
     if (!this.#exported) await this.#answer("icon.svg", { method: "HEAD", cache: "no-store", signal });
@@ -104,6 +109,20 @@ export class Server {
   /** Has the device play a texture. */
   playOnDevice(texture) {
     return this.#post("api/device/play", { texture: texture.id });
+  }
+
+  /** What the server knows of a texture. */
+  shown(texture, signal) {
+    return this.#json(`api/texture/${texture.id}.page.json`, { signal });
+  }
+
+  /** What the project keeps of the page; without anything, an empty object. */
+  project(signal) {
+    return this.#json("api/project.json", { signal });
+  }
+
+  keepProject(kept) {
+    return this.#post("api/project.json", kept);
   }
 
   /** A file of a texture by its ending, such as "asp" or "export.wav": a Blob. */

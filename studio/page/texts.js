@@ -27,7 +27,8 @@ export const texts = {
   },
   title: "Asperity Studio",
   titled: (name) => `${name} – Asperity Studio`,
-  edition: (version, library) => (library ? `${library.name}, ${number(library.textures, 0)} textures · ${version}` : version),
+  edition: (version, library, project) => [library && `${library.name}, ${number(library.textures, 0)} textures`,
+    project && `project ${project}`, version].filter(Boolean).join(" · "),
 
   theme: { auto: "Theme: system", light: "Theme: light", dark: "Theme: dark" },
 
@@ -181,9 +182,7 @@ export const texts = {
       entry: (at, what) => `${at}. ${what}`,
     },
     gone: (name, error) => `“${name}” cannot be shown again: ${error}.`,
-    gone_help: "The server keeps the last 256 textures. The same steps make the same bytes again.",
-    gone_again: "Make it again",
-    gone_file: "The server keeps the last 256 textures. Open its file again.",
+    gone_help: "The server keeps those of a project, and else the last 256. Compile it, or open its file, again.",
     compare: {
       title: "Compare",
       title_blind: "Blind comparison",
@@ -352,6 +351,10 @@ export const texts = {
     failed: (why) => `The compiler of this page has failed: ${why}`,
     failed_help: "Try again, which loads it anew. What is not saved of this session can be made again by the same steps.",
     version: (module, page) => `its version is ${module}, that of the page ${page}`,
+  },
+
+  project: {
+    not_kept: (why) => `The project is not kept: ${why}`,
   },
 
   gallery: {

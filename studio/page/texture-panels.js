@@ -61,9 +61,14 @@ export function startTexturePanels({ state, loader }) {
 
   // Sliders and words keep to the prompt that they began with, by the names of textures.
   const prompted = new Map();
+  const MOST = 256;
   loader.on("shown", ({ texture, how }) => {
     if (texture.compiled) prompted.set(texture.id, texture);
-    else if (!prompted.has(texture.id)) prompted.set(texture.id, prompted.get((how.base ?? how.of)?.id));
+    else if (!prompted.has(texture.id)) {
+      const base = how.entry?.base ?? how.base ?? how.of;
+      prompted.set(texture.id, prompted.get(base?.id) ?? (base?.compiled && base));
+    }
+    if (prompted.size > MOST) prompted.delete(prompted.keys().next().value);
     const from = prompted.get(texture.id) ?? texture;
     showReading(from.compiled);
     showNearest(from, prompt.compile);
@@ -79,7 +84,7 @@ export function startTexturePanels({ state, loader }) {
     if (!about) return;
     prompt.words = about.words;
     if (!about.prompts) prompt.withdraw();
-    find("edition").textContent = texts.edition(about.version, about.library);
+    find("edition").textContent = texts.edition(about.version, about.library, about.project);
   });
   state.on(["texture"], ({ texture }) => {
     find("invitation").hidden = texture !== null;

@@ -4,6 +4,7 @@ use crate::{
     VERSION,
     device::{Description, LiveDevice},
     library_store::LibraryHandle,
+    project::Project,
     prompts::Prompts,
 };
 use asperity::{
@@ -39,6 +40,8 @@ struct About<'a> {
     files: Option<&'a [&'a str]>,
     compiler: Option<Compiler>,
     device: Option<Description<'a>>,
+    /// The name of the project that keeps what is made.
+    project: Option<String>,
 }
 
 /// A library, as the page knows it.
@@ -107,6 +110,7 @@ pub(crate) fn about(
     prompts: &Prompts,
     start: Option<&LibraryHandle>,
     device: Option<&LiveDevice>,
+    project: Option<&Project>,
     served: Served,
 ) -> Vec<u8> {
     let about = About {
@@ -138,6 +142,7 @@ pub(crate) fn about(
             Served::Live | Served::Files => None,
         },
         device: device.map(LiveDevice::description),
+        project: project.map(Project::name),
     };
     // Plain structures of numbers and strings always serialise.
     serde_json::to_vec(&about).unwrap_or_default()

@@ -77,10 +77,10 @@ fn redirect(url: &str) -> io::Result<TempPath> {
         .prefix("asperity-studio-")
         .suffix(".html")
         .tempfile()?;
-    write!(
+    writeln!(
         file,
         "<!doctype html><meta charset=\"utf-8\"><meta name=\"referrer\" content=\"no-referrer\">\
-         <meta http-equiv=\"refresh\" content=\"0; url={url}\"><a href=\"{url}\">Asperity Studio</a>\n"
+         <meta http-equiv=\"refresh\" content=\"0; url={url}\"><a href=\"{url}\">Asperity Studio</a>"
     )?;
     Ok(file.into_temp_path())
 }

@@ -26,8 +26,8 @@
 //!    interface, each with its limit of bytes.
 //!
 //! What is compiled, mixed, opened or exported goes through the same calls as in the commands, so that bytes, reports and
-//! errors are theirs. A panic in one of these ends one request. Files that are dropped on the page stay in memory: nothing
-//! is written to a disk. At most four large bodies are in memory at once, and no more requests compute at once than
+//! errors are theirs. A panic in one of these ends one request. Files that are dropped on the page stay in memory; a
+//! project alone is written to a disk, its files named by hashes. At most four large bodies are in memory at once, and no more requests compute at once than
 //! there are processors.
 #![forbid(unsafe_code)]
 
@@ -50,6 +50,7 @@ mod module;
 mod opening;
 mod packing;
 mod page;
+mod project;
 mod prompts;
 mod recent;
 mod recipe;
@@ -70,6 +71,7 @@ pub use collection::{Collection, CollectionError};
 pub use device::{LiveDevice, LiveStatus, LiveTick, Percentiles, RequestedTexture};
 pub use export::{ExportError, Exported, export};
 pub use module::{Module, ModuleError};
+pub use project::Project;
 pub use prompts::LoadPrompts;
 pub use reply::Reply;
 pub use server::{BindError, Limits, Server, Stopper};

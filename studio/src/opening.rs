@@ -104,7 +104,7 @@ fn import(imported: Imported, file: &str, bytes: &[u8]) -> Result<Texture, ApiEr
         id: hash(bytes),
     };
     let operation = |_: &str| Operation::Import {
-        kind: imported.name(),
+        kind: imported.name().to_owned(),
         file: opened,
     };
     Texture::new(compiled.lowered.bytes, making, operation).map_err(damaged)

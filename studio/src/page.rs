@@ -27,7 +27,7 @@ pub(crate) const FILES: &[File] = files! {
         "steer/steer.css";
     "text/javascript; charset=utf-8":
         "auto.js" "begin.js" "devices.js" "dom.js" "drawers.js" "events.js" "force.js" "hand-panel.js" "hand.js" "keys.js" "limiter.js"
-        "lit.js" "loader.js" "path.js" "pointer.js" "prompt-history.js" "prompt.js" "reading.js" "readout.js"
+        "lit.js" "loader.js" "path.js" "pointer.js" "project.js" "prompt-history.js" "prompt.js" "reading.js" "readout.js"
         "server.js" "sound-panel.js" "sound.js" "studio.js" "suggest.js" "surface.js" "texts.js" "texture-panels.js"
         "view.js" "worklet.js"
         "device/feed.js" "device/jitter.js" "device/panel.js"

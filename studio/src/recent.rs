@@ -6,30 +6,42 @@ use std::{
     sync::{Arc, Mutex, PoisonError},
 };
 
-/// Textures that are kept.
+/// Textures that are kept: more than a session has.
 const MOST: usize = 256;
+/// Drafts that are kept, which are heard while a slider moves.
+const MOST_DRAFTS: usize = 16;
 /// Bytes of assets that are kept: opened ones may be large.
 const MOST_BYTES: usize = 256 << 20;
 
 /// The last textures, the newest at the end.
-#[derive(Default)]
-pub(crate) struct Recent(Mutex<VecDeque<Arc<Texture>>>);
+pub(crate) struct Recent {
+    most: usize,
+    kept: Mutex<VecDeque<Arc<Texture>>>,
+}
 
 impl Recent {
+    /// No texture yet, of the session or of its drafts.
+    pub(crate) fn new(drafts: bool) -> Self {
+        Self {
+            most: if drafts { MOST_DRAFTS } else { MOST },
+            kept: Mutex::default(),
+        }
+    }
+
     /// Keeps a texture. What has the same bytes makes room, then the oldest.
     pub(crate) fn keep(&self, texture: Arc<Texture>) {
-        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         kept.retain(|other| other.id() != texture.id());
         kept.push_back(texture);
         let mut bytes: usize = kept.iter().map(|texture| texture.asset().len()).sum();
-        while kept.len() > MOST || (bytes > MOST_BYTES && kept.len() > 1) {
+        while kept.len() > self.most || (bytes > MOST_BYTES && kept.len() > 1) {
             bytes -= kept.pop_front().map_or(0, |oldest| oldest.asset().len());
         }
     }
 
     /// The texture of this name, which counts as new: what drafts are made of is asked for again and again.
     pub(crate) fn get(&self, id: &str) -> Option<Arc<Texture>> {
-        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         let at = kept.iter().position(|texture| texture.id() == id)?;
         let texture = kept.remove(at)?;
         kept.push_back(Arc::clone(&texture));
@@ -48,7 +60,7 @@ mod tests {
     #[test]
     fn the_last_256_are_kept_each_once() {
         let named = |n: usize| texture(&format!("texture {n}"), 1);
-        let recent = Recent::default();
+        let recent = Recent::new(false);
         let first = named(0);
         recent.keep(Arc::clone(&first));
         for n in 1..MOST {
@@ -65,7 +77,7 @@ mod tests {
 
     #[test]
     fn assets_of_256_mib_are_kept_and_not_a_byte_more() {
-        let recent = Recent::default();
+        let recent = Recent::new(false);
         let kept = |ids: &[&str]| ids.iter().filter(|id| recent.get(id).is_some()).count();
         recent.keep(texture("half", 128 << 20));
         recent.keep(texture("rest", (128 << 20) - 1));

@@ -120,7 +120,11 @@ impl Server {
     ///
     /// # Errors
     /// [`BindError`] for a port that cannot be had, and a system without random numbers.
-    pub fn bind(port: u16, studio: Studio, limits: Limits) -> Result<Self, BindError> {
+    pub fn bind(
+        port: u16,
+        studio: impl Into<Arc<Studio>>,
+        limits: Limits,
+    ) -> Result<Self, BindError> {
         let refused = |source| BindError::Port { port, source };
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(refused)?;
         let address = listener.local_addr().map_err(refused)?;
@@ -131,7 +135,7 @@ impl Server {
             stopped: Arc::default(),
             shared: Arc::new(Shared {
                 guard: Guard::new(token),
-                studio: Arc::new(studio),
+                studio: studio.into(),
                 limits,
             }),
         })

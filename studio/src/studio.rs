@@ -10,6 +10,7 @@ use crate::{
     limiter::Limiter,
     making,
     opening::{self, FileContent},
+    project::Project,
     prompts::{LoadPrompts, Loaded, Prompts},
     recent::Recent,
     texture::Texture,
@@ -22,6 +23,8 @@ pub struct Studio {
     device: Option<LiveDevice>,
     prompts: Prompts,
     recent: Recent,
+    drafts: Recent,
+    project: Option<Project>,
     computing: Limiter,
     sending: Limiter,
 }
@@ -41,7 +44,9 @@ impl Studio {
             shelf: LibraryStore::new(collection),
             device: None,
             prompts: Prompts::new(prompts),
-            recent: Recent::default(),
+            recent: Recent::new(false),
+            drafts: Recent::new(true),
+            project: None,
             computing: Limiter::computing(),
             sending: Limiter::sending(),
         }
@@ -54,6 +59,26 @@ impl Studio {
             device: Some(device),
             ..self
         }
+    }
+
+    /// The same, which keeps what is made in a project.
+    #[must_use]
+    pub fn with_project(self, project: Project) -> Self {
+        Self {
+            project: Some(project),
+            ..self
+        }
+    }
+
+    /// The project.
+    ///
+    /// # Errors
+    /// Where there is none.
+    pub(crate) fn project(&self) -> Result<&Project, ApiError> {
+        self.project.as_ref().ok_or_else(|| {
+            let error = "this studio keeps no project";
+            ApiError::new(Status::NotFound, error, "start it with --project")
+        })
     }
 
     /// The device beside it.
@@ -72,13 +97,14 @@ impl Studio {
             &self.prompts,
             self.start().as_ref(),
             self.device.as_ref(),
+            self.project.as_ref(),
             Served::Live,
         )
     }
 
     /// Returns the capabilities of a page without a server, JSON.
     pub(crate) fn about_exported(&self, served: Served) -> Vec<u8> {
-        about::about(&self.prompts, self.start().as_ref(), None, served)
+        about::about(&self.prompts, self.start().as_ref(), None, None, served)
     }
 
     /// The library that it was started with.
@@ -91,18 +117,24 @@ impl Studio {
     /// # Errors
     /// As the command, and without a prompt compiler.
     pub(crate) fn compile(&self, prompt: &str, seed: u64) -> Result<Arc<Texture>, ApiError> {
-        self.make(|loaded| making::compile(loaded, prompt, seed))
+        self.make(false, |loaded| making::compile(loaded, prompt, seed))
     }
 
-    /// Makes a texture with the prompt compiler, and keeps it.
+    /// Makes a texture with the prompt compiler, and keeps it: a draft not for long.
     ///
     /// # Errors
     /// As `make`, and without a prompt compiler.
     pub(crate) fn make(
         &self,
+        draft: bool,
         make: impl FnOnce(&Loaded) -> Result<Texture, ApiError>,
     ) -> Result<Arc<Texture>, ApiError> {
         let texture = self.compute(|| make(self.prompts.get()?))?;
+        if draft {
+            let texture = Arc::new(texture);
+            self.drafts.keep(Arc::clone(&texture));
+            return Ok(texture);
+        }
         Ok(self.keep(texture))
     }
 
@@ -139,12 +171,18 @@ impl Studio {
         Ok(self.keep(texture))
     }
 
-    /// A texture that was made or opened lately.
+    /// A texture that was made or opened lately, or is in the project.
     ///
     /// # Errors
     /// Where there is none.
     pub(crate) fn texture(&self, id: &str) -> Result<Arc<Texture>, ApiError> {
-        self.recent.get(id).ok_or_else(|| {
+        let lately = || self.recent.get(id).or_else(|| self.drafts.get(id));
+        let kept = || {
+            let texture = Arc::new(self.project.as_ref()?.texture(id)?);
+            self.recent.keep(Arc::clone(&texture));
+            Some(texture)
+        };
+        lately().or_else(kept).ok_or_else(|| {
             ApiError::new(
                 Status::NotFound,
                 "the server does not have this texture, or no longer",
@@ -170,6 +208,9 @@ impl Studio {
 
     fn keep(&self, texture: Texture) -> Arc<Texture> {
         let texture = Arc::new(texture);
+        if let Some(project) = &self.project {
+            project.keep(&texture);
+        }
         self.recent.keep(Arc::clone(&texture));
         texture
     }

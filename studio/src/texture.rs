@@ -16,7 +16,7 @@ use asperity::{
 };
 use asperity_formats::{Asset, FormatError};
 use asperity_io::{diagnostic::Fault, output::FileNames};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 use sha2::{Digest as _, Sha256};
 use std::{
@@ -26,6 +26,8 @@ use std::{
 
 /// Bytes of the hash that names a texture.
 const ID_BYTES: usize = 16;
+/// Letters of that name.
+pub(crate) const ID_LETTERS: usize = 2 * ID_BYTES;
 
 /// A texture with what was found of it. What is rarely asked for is computed when it is.
 pub(crate) struct Texture {
@@ -77,6 +79,15 @@ struct Size {
     width_mm: f64,
 }
 
+/// What the bytes of a texture do not say of it, for a project.
+#[derive(Serialize, Deserialize)]
+pub(crate) struct Record {
+    name: String,
+    compiled: Option<Value>,
+    made: Option<Value>,
+    recipe: Option<Recipe>,
+}
+
 /// Provenance of a texture, as far as it is known.
 #[derive(Default)]
 pub(crate) struct Making<'a> {
@@ -100,27 +111,51 @@ impl Texture {
         making: Making<'_>,
         operation: impl FnOnce(&str) -> Operation,
     ) -> Result<Self, FormatError> {
+        let name = match making.indexed {
+            Some(name) => name,
+            None => Asset::parse(&asset)?.name().to_owned(),
+        };
+        let id = hash(&asset);
+        let others = making.others.iter().map(|other| other.recipe.as_ref());
+        let record = Record {
+            recipe: Recipe::new(others, &id, &name, operation(&id)),
+            name,
+            compiled: making.compiled,
+            made: making.made,
+        };
+        Self::restored(asset, record)
+    }
+
+    /// The texture of these bytes, of which this is known.
+    ///
+    /// # Errors
+    /// For damaged bytes.
+    pub(crate) fn restored(asset: Vec<u8>, record: Record) -> Result<Self, FormatError> {
         let parsed = Asset::parse(&asset)?;
         let stored = parsed
             .preview_png()
             .and_then(|png| preview::stored(png).ok());
-        let id = hash(&asset);
-        let document = match making.indexed {
-            Some(name) => Document::named(&parsed, name),
-            None => Document::of(&parsed),
-        };
-        let others = making.others.iter().map(|other| other.recipe.as_ref());
         Ok(Self {
-            recipe: Recipe::new(others, &id, &document.name, operation(&id)),
-            document,
-            id,
+            document: Document::named(&parsed, record.name),
+            id: hash(&asset),
             pixels: stored.map_or(SIZE, |picture| picture.width),
             asset: asset.into(),
-            compiled: making.compiled,
-            made: making.made,
+            compiled: record.compiled,
+            made: record.made,
+            recipe: record.recipe,
             worklet: OnceLock::new(),
             pictures: OnceLock::new(),
         })
+    }
+
+    /// What its bytes do not say.
+    pub(crate) fn record(&self) -> Record {
+        Record {
+            name: self.document.name.clone(),
+            compiled: self.compiled.clone(),
+            made: self.made.clone(),
+            recipe: self.recipe.clone(),
+        }
     }
 
     /// Returns its identifier: a hash of its bytes.

@@ -49,7 +49,7 @@ mod user_folder;
 pub use crate::name::check_name;
 pub use build::{Build, Built, Request};
 pub use build_file::BuildFile;
-pub use cache::{Cache, default_folder};
+pub use cache::{Cache, default_folder, user_folder};
 pub use change::Change;
 pub use diff::{Difference, diff};
 pub use facts::Facts;

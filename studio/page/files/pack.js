@@ -45,7 +45,7 @@ export class Pack {
       onchange: () => this.#count() });
     const input = element("input", { type: "text", value: name, "aria-label": texts.files.session_name(name), spellcheck: "false",
       oninput: () => this.#count() });
-    this.#entries.set(texture.id, { texture, box, input });
+    this.#entries.set(texture.id, { texture: { id: texture.id }, box, input });
     this.list.prepend(element("li", {}, box, input));
     this.#count();
   }

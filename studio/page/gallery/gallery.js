@@ -174,17 +174,18 @@ class Gallery {
 
   #reached(place) {
     clearTimeout(this.#timer);
-    if (this.follow.checked) this.#timer = setTimeout(() => this.#pick(this.#library, place), REACHED_MS);
+    if (this.follow.checked) this.#timer = setTimeout(() => this.#pick(this.#library, place, true), REACHED_MS);
   }
 
-  #pick(library, place) {
+  /** `walks` where arrow keys pass by. */
+  #pick(library, place, walks = false) {
     clearTimeout(this.#timer);
     const { server, loader } = this.#parts;
     loader.take(async (signal) => {
       const texture = await server.pick(library, place, signal);
       this.#origins.set(texture.id, { library, place });
       return texture;
-    }, { kind: "pick", name: library.names[place] });
+    }, { kind: "pick", name: library.names[place], walks });
   }
 
   /** Marks the texture on the surface in the library that is shown. */

@@ -2,6 +2,7 @@
 // a texture.
 
 import { Events } from "../events.js";
+import { Refusal } from "../server.js";
 
 export const LETTERS = ["A", "B", "C", "D"];
 
@@ -27,6 +28,12 @@ export class Compare extends Events {
 
   get filled() {
     return this.slots.flatMap((entry, n) => (entry ? [{ n, letter: LETTERS[n], entry }] : []));
+  }
+
+  /** Brings back the entries of a project. */
+  restore(slots) {
+    this.slots = LETTERS.map((_, n) => slots[n] ?? null);
+    this.emit("change");
   }
 
   /** Puts what is shown into a slot. */
@@ -68,8 +75,9 @@ export class Compare extends Events {
     if (n === undefined) return;
     // Played alone: nothing else on the page hears of it.
     try {
-      if (!(await this.#loader.draft(async () => this.slots[n].texture, this.slots[n].base))) return;
-    } catch {
+      if (!(await this.#loader.draft(() => this.#session.whole(this.slots[n]), this.slots[n]))) return;
+    } catch (error) {
+      if (!(error instanceof Refusal)) throw error;
       // The server has it no longer, which cannot be said blindly.
       this.heard = n;
       return this.reveal();

@@ -26,7 +26,7 @@ export class Live {
       const { key, make, base } = this.#next;
       this.#next = null;
       try {
-        const texture = await this.#loader.draft(() => this.#once(key, make), base);
+        const texture = await this.#loader.draft(() => this.#once(key, make), { base });
         if (texture) this.#heard(texture);
       } catch (refusal) {
         if (this.#next) continue;

@@ -85,7 +85,7 @@ function followShortcuts({ undo, redo, slot, slotKeys }) {
 }
 
 export function startSteering({ server, state, loader, sound }) {
-  const session = new Session(loader);
+  const session = new Session(loader, server);
   const parts = { server, state, loader, sound, session };
   const compare = new Compare(parts);
   const feel = new Feel(parts);
@@ -110,4 +110,5 @@ export function startSteering({ server, state, loader, sound }) {
   };
   followShortcuts({ undo: steps(() => session.undo()), redo: steps(() => session.redo()),
     slot: (n) => compare.choose(n), slotKeys });
+  return { session, compare };
 }

@@ -21,38 +21,6 @@ export function portrait(server, texture) {
   return image;
 }
 
-// Making a texture again that the server no longer has: the same requests in the same order give the same bytes.
-/** What textures a step needs, and how the server takes it. */
-const MAKERS = {
-  prompt: ({ prompt, seed }) => [[], (server, _, signal) => server.compile({ prompt, seed }, signal)],
-  steps: ({ base, steps }) => [[base], (server, [from], signal) =>
-    (Object.keys(steps).length ? server.edit(from, { steps }, signal) : Promise.resolve(from))],
-  words: ({ of, words }) => [[of], (server, [from], signal) => server.edit(from, { words }, signal)],
-  encode: ({ from }) => [[from], (server, [of], signal) => server.encode(of, signal)],
-  blend: ({ a, b, t }) => [[a, b], (server, [from, to], signal) => server.blend(from, to, t, false, signal)],
-  compose: ({ tap, slide, friction }) => [[tap, slide, friction], (server, [taps, slides, rubs], signal) =>
-    server.compose({ tap: taps, slide: slides, friction: rubs }, signal)],
-};
-
-/** What makes a texture again, as of the loader; `null` where a file would have to be opened. */
-function madeAgain(server, session, texture) {
-  const ways = new Map(session.entries.map((entry) => [entry.texture.id, entry.how]));
-  const find = (wanted) => {
-    const how = ways.get(wanted.id) ?? (wanted.compiled && { kind: "prompt", prompt: wanted.compiled.prompt, seed: wanted.seed });
-    const maker = how && MAKERS[how.kind];
-    if (!maker) return null;
-    const [needed, make] = maker(how);
-    const before = needed.map((other) => (other.id === wanted.id ? null : find(other)));
-    if (before.includes(null)) return null;
-    return async (signal) => {
-      const made = [];
-      for (const step of before) made.push(await step(signal));
-      return make(server, made, signal);
-    };
-  };
-  return find(texture);
-}
-
 export function startTimeline({ server, state, session, loader }) {
   const list = element("ol", { class: "strip", "aria-label": texts.steer.timeline.label });
   const button = (label, onclick, title) => element("button", { type: "button", class: "quiet", onclick, title }, label);
@@ -74,7 +42,7 @@ export function startTimeline({ server, state, session, loader }) {
     // Not `disabled`, which would lose the focus at the ends.
     undo.setAttribute("aria-disabled", String(!session.canUndo));
     redo.setAttribute("aria-disabled", String(!session.canRedo));
-    told.textContent = entries.length ? texts.steer.timeline.at(at + 1, entries.length, describe(session.current)) : texts.steer.timeline.none;
+    told.textContent = session.current ? texts.steer.timeline.at(at + 1, entries.length, describe(session.current)) : texts.steer.timeline.none;
     for (const entry of shown.keys()) if (!entries.includes(entry)) shown.delete(entry);
     const items = entries.map(item);
     // Buttons that stay keep the focus.
@@ -100,9 +68,7 @@ export function startTimeline({ server, state, session, loader }) {
   loader.on("refused", ({ refusal: { message }, how }) => {
     if (how?.kind !== "undo") return;
     const { entry } = how;
-    const make = madeAgain(server, session, entry.texture);
-    const again = () => loader.take(make, { kind: "undo", entry });
-    notify("gone", { text: texts.steer.gone(entry.texture.name, message), help: make ? texts.steer.gone_help : texts.steer.gone_file,
-      ...(make ? { action: { label: texts.steer.gone_again, run: again } } : {}) });
+    notify("gone", { text: texts.steer.gone(entry.texture.name, message), help: texts.steer.gone_help,
+      action: { label: texts.server.retry, run: () => session.show(entry) } });
   });
 }

@@ -51,9 +51,12 @@ pub(super) fn open(
     }))
 }
 
-/// A file of a texture: `ID.ENDING`.
+/// What the page shows of a texture, `ID.page.json`, or a file of it, `ID.ENDING`.
 pub(super) fn download(studio: &Studio, file: &str) -> Result<Answer, ApiError> {
     let (id, ending) = file.split_once('.').ok_or_else(nothing_here)?;
+    if ending == "page.json" {
+        return Ok(Answer::json(studio.shown(&*studio.texture(id)?)));
+    }
     let download = Download::of(ending).ok_or_else(nothing_here)?;
     let texture = studio.texture(id)?;
     let bytes = studio.compute(|| download.bytes(&texture))?;

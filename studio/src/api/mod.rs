@@ -9,6 +9,7 @@ use crate::{
     error::ApiError,
     http::{Answer, Body, Content, Head, Keep, Method, Status},
     page,
+    project::STATE_BYTES,
     studio::Studio,
 };
 
@@ -47,6 +48,13 @@ pub(crate) fn answer(
     match path {
         "api/about.json" if reads => Ok(Answer::json(studio.about())),
         "api/about.json" => Ok(Answer::only("GET, HEAD")),
+        "api/project.json" if reads => Ok(Answer::json(studio.project()?.state()?)),
+        "api/project.json" if posts => {
+            let project = studio.project()?;
+            project.save(&body.read(STATE_BYTES)?)?;
+            Ok(Answer::json("{}"))
+        }
+        "api/project.json" => Ok(Answer::only("GET, HEAD, POST")),
         "api/open" if posts => files::open(studio, head, body),
         "api/pack" if posts => files::pack(studio, body),
         "api/device/ticks" if reads => device::requests::ticks(studio.device(), &head.target),

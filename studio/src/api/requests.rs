@@ -87,7 +87,9 @@ fn edit(studio: &Studio, bytes: &[u8]) -> Result<Arc<Texture>, ApiError> {
         (None, None) => return Err(unexpected("it has neither steps nor words", EXPECTED)),
     };
     let texture = studio.texture(&request.texture)?;
-    studio.make(|loaded| making::edit(loaded, &texture, asked, request.draft))
+    studio.make(request.draft, |loaded| {
+        making::edit(loaded, &texture, asked, request.draft)
+    })
 }
 
 fn blend(studio: &Studio, bytes: &[u8]) -> Result<Arc<Texture>, ApiError> {
@@ -99,7 +101,9 @@ fn blend(studio: &Studio, bytes: &[u8]) -> Result<Arc<Texture>, ApiError> {
     }
     let (a, b) = (studio.texture(&a)?, studio.texture(&b)?);
     // No command line takes −0.
-    studio.make(|loaded| making::blend(loaded, [&a, &b], t + 0.0, draft))
+    studio.make(draft, |loaded| {
+        making::blend(loaded, [&a, &b], t + 0.0, draft)
+    })
 }
 
 fn compose(studio: &Studio, bytes: &[u8]) -> Result<Arc<Texture>, ApiError> {
@@ -108,12 +112,14 @@ fn compose(studio: &Studio, bytes: &[u8]) -> Result<Arc<Texture>, ApiError> {
     let tap = studio.texture(&request.tap)?;
     let slide = studio.texture(&request.slide)?;
     let friction = studio.texture(&request.friction)?;
-    studio.make(|loaded| making::compose(loaded, [&tap, &slide, &friction]))
+    studio.make(false, |loaded| {
+        making::compose(loaded, [&tap, &slide, &friction])
+    })
 }
 
 fn encode(studio: &Studio, bytes: &[u8]) -> Result<Arc<Texture>, ApiError> {
     let texture = studio.texture(&texture(bytes)?)?;
-    studio.make(|loaded| making::encode(loaded, &texture))
+    studio.make(false, |loaded| making::encode(loaded, &texture))
 }
 
 /// The name of the texture that a request is about.

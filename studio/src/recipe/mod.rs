@@ -6,6 +6,7 @@ mod words;
 
 use asperity::sources::latents::Edit;
 use asperity_io::{output::FileNames, shown::shell_word};
+use serde::{Deserialize, Serialize};
 use std::{collections::HashMap, path::Path, sync::Arc};
 use words::{options, path_word, quoted};
 
@@ -14,10 +15,11 @@ const MOST: usize = 64;
 
 /// Steps from prompts and files to a texture; each after those that it takes textures of. The last one gives the
 /// texture itself.
-#[derive(Clone)]
+#[derive(Clone, Serialize, Deserialize)]
 pub(crate) struct Recipe(Vec<Arc<Step>>);
 
 /// A step, which gives one texture.
+#[derive(Serialize, Deserialize)]
 struct Step {
     /// Identifier of its texture's bytes.
     id: String,
@@ -27,7 +29,7 @@ struct Step {
 }
 
 /// A file that commands find where the user has it.
-#[derive(Clone, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Opened {
     /// Its path, or its name alone where it was dropped on the page.
     pub(crate) path: String,
@@ -36,11 +38,12 @@ pub(crate) struct Opened {
 }
 
 /// Operation of a step. Other textures are named by the identifiers of their bytes.
+#[derive(Serialize, Deserialize)]
 pub(crate) enum Operation {
     /// A file holds the texture.
     File(Opened),
     /// `asperity import`, of a file as `hatt` or another kind
-    Import { kind: &'static str, file: Opened },
+    Import { kind: String, file: Opened },
     /// `asperity extract`
     Extract { library: Opened, texture: String },
     /// `asperity compile`

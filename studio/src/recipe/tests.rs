@@ -124,7 +124,16 @@ fn other_files_are_imported_and_textures_of_libraries_extracted() {
         id: "o".into(),
     };
     let (kind, file) = ("hatt", opened("Models_Oak.xml"));
-    let oak = Recipe::new([], "1", "Oak", Operation::Import { kind, file }).unwrap();
+    let oak = Recipe::new(
+        [],
+        "1",
+        "Oak",
+        Operation::Import {
+            kind: kind.into(),
+            file,
+        },
+    )
+    .unwrap();
     let command = "asperity import hatt Models_Oak.xml -o Oak.asp";
     assert_eq!(oak.command().as_deref(), Some(command));
     for (texture, command) in [

@@ -14,9 +14,10 @@ use crate::{
 };
 use asperity_io::diagnostic::Fault;
 use asperity_texture::model::{attributes::Attributes, shift::Shift};
+use serde::{Deserialize, Serialize};
 
 /// An edit.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Edit {
     /// Along the sliders.
     Steps(Sliders),

@@ -1,0 +1,230 @@
+//! A project: what is made in the studio is kept in a folder as it is made, and is there again tomorrow.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `project.json` | what the page shows: the session, its slots |
+//! | `ID.asp`, `ID.json` | a texture, and how it was made |
+//! | `lock` | nothing; one studio at a time holds it |
+
+use crate::{
+    error::{ApiError, refused},
+    http::Status,
+    texture::{ID_LETTERS, Record, Texture},
+};
+use asperity_io::{diagnostic::Fault, output, shown::counted};
+use serde_json::Value;
+use std::{
+    fs::{self, File, TryLockError},
+    io,
+    path::{Path, PathBuf},
+};
+
+const STATE: &str = "project.json";
+const LOCK: &str = "lock";
+/// Bytes of what the page shows.
+pub(crate) const STATE_BYTES: u64 = 1 << 20;
+
+/// A folder that this studio alone writes to.
+#[derive(Debug)]
+pub struct Project {
+    folder: PathBuf,
+    /// Locked as long as it is open.
+    _lock: File,
+}
+
+impl Project {
+    /// Opens a project, or begins one in a new or empty folder. Textures that it no longer shows are removed.
+    ///
+    /// # Errors
+    /// [`Fault`] for a folder of other files, one that cannot be written, and a project that another studio has open.
+    pub fn open(folder: &Path) -> Result<Self, Fault> {
+        let failed = |error: io::Error| {
+            let what = format!("the project cannot be opened: {error}");
+            Fault::new(what, "give a folder that you may write to, as --project").at(folder)
+        };
+        fs::create_dir_all(folder).map_err(failed)?;
+        let others = fs::read_dir(folder)
+            .map_err(failed)?
+            .flatten()
+            .map(|entry| entry.file_name())
+            .filter(|name| name != LOCK)
+            .count();
+        if others > 0 && !Self::is_one(folder) {
+            let what = format!(
+                "no project, but {}",
+                counted(others, "other file", "other files")
+            );
+            return Err(Fault::new(what, "give a new or an empty folder").at(folder));
+        }
+        let lock = File::create(folder.join(LOCK)).map_err(failed)?;
+        match lock.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => {
+                let what = "another studio has this project open";
+                let remedy = "use that one, or give another folder as --project";
+                return Err(Fault::new(what, remedy).at(folder));
+            }
+            Err(TryLockError::Error(error)) => return Err(failed(error)),
+        }
+        let project = Self {
+            folder: folder.to_owned(),
+            _lock: lock,
+        };
+        project.tidy().map_err(failed)?;
+        Ok(project)
+    }
+
+    /// Returns true for the folder of a project.
+    #[must_use]
+    pub fn is_one(folder: &Path) -> bool {
+        folder.join(STATE).is_file()
+    }
+
+    /// Its name, that of the folder.
+    pub(crate) fn name(&self) -> String {
+        let name = self.folder.file_name().unwrap_or_default();
+        name.to_string_lossy().into_owned()
+    }
+
+    /// Removes the textures that the page shows no longer.
+    fn tidy(&self) -> io::Result<()> {
+        let state = match fs::read_to_string(self.folder.join(STATE)) {
+            Ok(state) => state,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                return fs::write(self.folder.join(STATE), "{}");
+            }
+            Err(error) => return Err(error),
+        };
+        for entry in fs::read_dir(&self.folder)?.flatten() {
+            let path = entry.path();
+            let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+            if is_id(&stem) && !state.contains(&*stem) {
+                fs::remove_file(&path)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// What the page showed last, JSON.
+    ///
+    /// # Errors
+    /// Where it cannot be read.
+    pub(crate) fn state(&self) -> Result<Vec<u8>, ApiError> {
+        fs::read(self.folder.join(STATE)).map_err(|error| {
+            let error = format!("{}: {error}", self.folder.join(STATE).display());
+            ApiError::new(Status::Internal, error, "see that the folder can be read")
+        })
+    }
+
+    /// Keeps what the page shows, all of it or nothing.
+    ///
+    /// # Errors
+    /// For what is no JSON object, and where it cannot be written.
+    pub(crate) fn save(&self, state: &[u8]) -> Result<(), ApiError> {
+        if !serde_json::from_slice(state).is_ok_and(|value: Value| value.is_object()) {
+            let error = "a project is a JSON object";
+            return Err(ApiError::new(Status::BadRequest, error, "reload the page"));
+        }
+        output::write_atomic(&self.folder.join(STATE), state).map_err(|error| refused(&error))
+    }
+
+    /// Keeps a texture. Where that fails, as on a full disk, so does keeping what the page shows, which says it.
+    pub(crate) fn keep(&self, texture: &Texture) {
+        let [asset, record] = self.files(texture.id());
+        if record.exists() {
+            return;
+        }
+        let written = serde_json::to_vec(&texture.record()).unwrap_or_default();
+        let _ = output::write_atomic(&asset, texture.asset())
+            .and_then(|()| output::write_atomic(&record, &written));
+    }
+
+    /// A texture that was kept; `None` where it was not, or is damaged.
+    pub(crate) fn texture(&self, id: &str) -> Option<Texture> {
+        if !is_id(id) {
+            return None;
+        }
+        let [asset, record] = self.files(id).map(fs::read);
+        let record: Record = serde_json::from_slice(&record.ok()?).ok()?;
+        let texture = Texture::restored(asset.ok()?, record).ok()?;
+        (texture.id() == id).then_some(texture)
+    }
+
+    fn files(&self, id: &str) -> [PathBuf; 2] {
+        ["asp", "json"].map(|ending| self.folder.join(format!("{id}.{ending}")))
+    }
+}
+
+/// Returns true for what may be the name of a texture, and is no path.
+fn is_id(text: &str) -> bool {
+    text.len() == ID_LETTERS && text.bytes().all(|b| b.is_ascii_hexdigit())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{recipe::Operation, texture::Making};
+    use asperity::{emit::lower::lower, sources::builtin};
+
+    fn texture() -> Texture {
+        let asset = lower(&builtin::texture(), None).unwrap();
+        let operation = |_: &str| Operation::Compile {
+            prompt: "grit".into(),
+            seed: 3,
+        };
+        let making = Making {
+            made: Some(serde_json::json!({"t": 0.1 + 0.2})),
+            ..Making::default()
+        };
+        Texture::new(asset.bytes, making, operation).unwrap()
+    }
+
+    #[test]
+    fn a_project_is_a_folder_of_its_own_that_one_studio_has_open() {
+        let folder = tempfile::tempdir().unwrap();
+        let own = folder.path().join("new/desk");
+        let project = Project::open(&own).unwrap();
+        assert!(Project::is_one(&own) && project.name() == "desk");
+        assert_eq!(project.state().unwrap(), b"{}");
+        let said = Project::open(&own).unwrap_err().to_string();
+        assert!(said.contains("another studio"), "{said}");
+        for state in [&b"[]"[..], b"", b"{"] {
+            assert!(project.save(state).is_err());
+        }
+        project.save(b"{\"at\":1}").unwrap();
+        drop(project);
+        let again = Project::open(&own).unwrap();
+        assert_eq!(again.state().unwrap(), b"{\"at\":1}");
+        let said = Project::open(folder.path()).unwrap_err().to_string();
+        assert!(said.contains("1 other file"), "{said}");
+    }
+
+    #[test]
+    fn a_texture_is_kept_to_the_byte_as_long_as_it_is_shown() {
+        let folder = tempfile::tempdir().unwrap();
+        let project = Project::open(folder.path()).unwrap();
+        let texture = texture();
+        project.keep(&texture);
+        let shown = texture.shown(None);
+        let kept = project.texture(texture.id()).unwrap();
+        assert_eq!(kept.shown(None), shown);
+        assert!(shown.contains("--seed 3"), "{shown}");
+        for id in ["", "../project", &"f".repeat(ID_LETTERS)] {
+            assert!(project.texture(id).is_none(), "{id}");
+        }
+        project
+            .save(format!("{{\"entries\":[{:?}]}}", texture.id()).as_bytes())
+            .unwrap();
+        drop(project);
+        let project = Project::open(folder.path()).unwrap();
+        assert!(project.texture(texture.id()).is_some());
+        let [asset, record] = project.files(texture.id());
+        let whole = fs::read(&asset).unwrap();
+        fs::write(&asset, &whole[..whole.len() - 1]).unwrap();
+        assert!(project.texture(texture.id()).is_none(), "it is damaged");
+        project.save(b"{}").unwrap();
+        drop(project);
+        drop(Project::open(folder.path()).unwrap());
+        assert!(!asset.exists() && !record.exists());
+    }
+}
