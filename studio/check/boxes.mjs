@@ -2,7 +2,7 @@
 
 /** Elements that people read or use; what lies on the picture or on another control on purpose is none. */
 const PARTS = "button, select, input[type=text], h2, h3, output, summary, .told, .facts, .value, .badge, .small";
-const LAID_ON = ".zoom, .scale, .put, .rail, .suggestions, .notices, .stage, .segments, .unseen, .take, .hits";
+const LAID_ON = ".zoom, .scale, .put, .rail, .suggestions, .notices, .stage, .segments, .unseen, .take, .hits, dialog";
 
 /** Runs in the page: what lies wrong, in words. */
 function wrong([parts, laidOn]) {

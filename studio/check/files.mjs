@@ -110,6 +110,32 @@ async function opened(visit, { assert, asperity, folder, offline }) {
   assert(true, "a file is opened by keys alone");
 }
 
+/** A picture of heights, of which the page asks what it does not say. */
+async function map(visit, { assert, asperity, folder }) {
+  const { page } = visit;
+  run(asperity, folder, "compile", "corduroy", "-o", "corduroy.asp", "--quiet");
+  run(asperity, folder, "preview", "corduroy.asp", "-o", "seen.png", "--height", "ribs.png", "--quiet");
+  const bytes = readFileSync(join(folder, "ribs.png"));
+  await drop(page, [{ name: "ribs.png", bytes }]);
+  await page.waitForSelector("dialog[open]");
+  await page.keyboard.press("Escape");
+  await page.waitForSelector("dialog", { state: "detached" });
+  await drop(page, [{ name: "ribs.png", bytes }]);
+  await page.fill("#map-width_mm", "60");
+  await page.fill("#map-depth_mm", "0.5");
+  await page.fill("#map-like", "corduroy trousers");
+  await clean(page, assert, "when a map is asked about", "light");
+  await page.keyboard.press("Enter");
+  await shown(page, "ribs");
+  await page.click("#take-button");
+  const { bytes: kept } = await downloaded(page, () => page.click('.kind[data-ending="asp"]'));
+  await page.keyboard.press("Escape");
+  const command = await page.textContent("#command code");
+  run(asperity, folder, "import", "surface", "ribs.png", "--width-mm", "60", "--depth-mm", "0.5", "--like", "corduroy trousers", "-o", "ribs.asp", "--quiet");
+  assert(kept.equals(readFileSync(join(folder, "ribs.asp"))) && command.includes("--width-mm 60 --depth-mm 0.5 --like 'corduroy trousers'"),
+    `a height map becomes a texture by its size and words, with the bytes of ${command}`);
+}
+
 /** `offline` where the page comes from files alone. */
 export async function files(visit, { assert, asperity, work, offline = false }) {
   const folder = join(work, "files");
@@ -119,4 +145,5 @@ export async function files(visit, { assert, asperity, work, offline = false }) 
   await out(visit, tools);
   await pack(visit, tools);
   await opened(visit, tools);
+  await map(visit, tools);
 }

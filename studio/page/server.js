@@ -68,10 +68,10 @@ export class Server {
     return this.#post("api/encode", { texture: texture.id }, signal);
   }
 
-  /** A dropped file: { texture }, or { library } for one with several textures. */
-  open(file, signal) {
+  /** A dropped file, with what is stated of a picture: { texture }, or { library } for one with several textures. */
+  open(file, stated = {}, signal) {
     const options = { method: "POST", headers: { "Content-Type": "application/octet-stream" }, body: file, signal };
-    return this.#json(`api/open?name=${encodeURIComponent(file.name)}`, options);
+    return this.#json(`api/open?${new URLSearchParams({ name: file.name, ...stated })}`, options);
   }
 
   /** One library of a library's description in `about`, with the columns of its textures. */

@@ -438,7 +438,16 @@ export const texts = {
   files: {
     open: "Open a file …",
     drop: "Drop to open",
-    drop_kinds: "Assets, libraries, HaTT models (.xml), JSON models, effects (.haptic, .ahap, .hjif)",
+    drop_kinds: "Assets, libraries, HaTT models (.xml), JSON models, effects (.haptic, .ahap, .hjif), pictures of heights or normals",
+    map: {
+      title: (name) => `What ${name} does not say`,
+      about: "Heights are grey, white high; normals are told by their colours. A photograph says nothing of touch.",
+      width_mm: "Width of the surface that it shows, mm",
+      depth_mm: "Height of white above black, mm; negative where white is low",
+      like: "Material, in words: hardness, taps and friction",
+      import: "Import",
+      cancel: "Cancel",
+    },
     opening: (name, at, count) => (count === 1 ? `Opening ${name} …` : `Opening ${name} (${at} of ${count}) …`),
     opened: (name) => `Opened ${name}.`,
     not_opened: (name, why) => `${name} was not opened. ${why}`,

@@ -4,25 +4,34 @@ use crate::{
     collection::Collection,
     error::{ApiError, refused},
     http::Status,
+    prompts::Loaded,
     recipe::{Opened, Operation},
     texture::{Making, Texture, damaged, hash},
 };
 use asperity::{
     driver,
     emit::textures::Textures,
-    pipeline::Clock,
-    sources::{Tools, import::Imported},
+    passes::reduce::Fidelity,
+    pipeline::{Clock, Request},
+    sources::{
+        Tools,
+        import::Imported,
+        surface::{Options, Surface},
+    },
+    views::preview::SIZE,
 };
 use asperity_io::{
     clock::now,
+    diagnostic::Diagnostic,
     input::{Format, InputError, InputProblem},
+    shown::shell_word,
 };
 use std::path::Path;
 
 /// Leading bytes that tell what a file is, as for commands.
 const TELLING: usize = 64 << 10;
 /// File types that can be opened.
-const WANTED: &str = "an asset, a library, a HaTT material, a model, AHAP, .haptic or HJIF";
+const WANTED: &str = "an asset, a library, a HaTT material, a model, AHAP, .haptic, HJIF or a picture of heights or normals";
 
 /// The content of a file.
 pub(crate) enum FileContent {
@@ -106,6 +115,60 @@ fn import(imported: Imported, file: &str, bytes: &[u8]) -> Result<Texture, ApiEr
     let operation = |_: &str| Operation::Import {
         kind: imported.name().to_owned(),
         file: opened,
+        options: String::new(),
     };
     Texture::new(compiled.lowered.bytes, making, operation).map_err(damaged)
+}
+
+/// A picture of heights or normals, with what was stated of it, as `asperity import surface`.
+///
+/// # Errors
+/// As the command, and without a prompt compiler.
+pub(crate) fn surface(
+    file: &str,
+    bytes: &[u8],
+    stated: &[(&'static str, String)],
+    loaded: &Loaded,
+) -> Result<Texture, ApiError> {
+    let path = Path::new(file);
+    let failed = |failure: &dyn Diagnostic| refused(failure);
+    let source = Surface {
+        path: path.to_owned(),
+        options: Options::stated(stated).map_err(|failure| failed(&*failure))?,
+    };
+    let tools = Tools {
+        given: Some((path, bytes)),
+        clock: Clock(now),
+        ..Tools::of(&loaded.compiler)
+    };
+    let request = Request {
+        fidelity: Fidelity::Auto,
+        preview_px: Some(SIZE),
+        ..Request::default()
+    };
+    let compiled =
+        driver::compile(&source, &request, &tools).map_err(|failure| failed(&*failure))?;
+    let making = Making {
+        made: Some(compiled.json()),
+        ..Making::default()
+    };
+    let opened = Opened {
+        path: file.to_owned(),
+        id: hash(bytes),
+    };
+    let options = stated
+        .iter()
+        .map(|(key, value)| format!(" --{} {}", key.replace('_', "-"), shell_word(value)));
+    let operation = |_: &str| Operation::Import {
+        kind: "surface".into(),
+        file: opened,
+        options: options.collect(),
+    };
+    Texture::new(compiled.lowered.bytes, making, operation).map_err(damaged)
+}
+
+/// Returns true for a picture, which shows heights or normals.
+pub(crate) fn is_picture(bytes: &[u8]) -> bool {
+    let format = Format::of(&bytes[..bytes.len().min(TELLING)]);
+    matches!(format, Some(Format::Png | Format::Tiff | Format::Jpeg))
 }

@@ -138,12 +138,23 @@ impl Studio {
         Ok(self.keep(texture))
     }
 
-    /// Opens the bytes of a file, and keeps what it holds.
+    /// Opens the bytes of a file, and keeps what it holds. Of a picture, its size and its material have to be stated.
     ///
     /// # Errors
     /// As a command that opens such a file.
-    pub(crate) fn open(&self, file: &str, bytes: Vec<u8>) -> Result<OpenedFile, ApiError> {
-        let found = self.compute(|| opening::open(file, bytes))?;
+    pub(crate) fn open(
+        &self,
+        file: &str,
+        bytes: Vec<u8>,
+        stated: &[(&'static str, String)],
+    ) -> Result<OpenedFile, ApiError> {
+        let found = self.compute(|| {
+            if !opening::is_picture(&bytes) {
+                return opening::open(file, bytes);
+            }
+            let texture = opening::surface(file, &bytes, stated, self.prompts.get()?)?;
+            Ok(FileContent::Texture(Box::new(texture)))
+        })?;
         Ok(match found {
             FileContent::Texture(texture) => OpenedFile::Texture(self.keep(*texture)),
             FileContent::Library(library) => OpenedFile::Library(self.shelf.keep(*library)),

@@ -195,8 +195,8 @@ fn files_that_cannot_be_opened_are_refused_by_their_name_alone() {
         (
             "x.png",
             b"\x89PNG\r\n\x1a\n",
-            "a PNG picture",
-            "give the file",
+            "a damaged PNG",
+            "export the file again",
         ),
         (
             "x.haps",

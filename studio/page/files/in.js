@@ -3,6 +3,7 @@
 import { announce, element, find, notify, withdraw } from "../dom.js";
 import { Refusal } from "../server.js";
 import { texts } from "../texts.js";
+import { askMap, isPicture } from "./map.js";
 
 /** Bytes that the server takes. */
 const MOST_BYTES = 64 * 2 ** 20;
@@ -61,7 +62,9 @@ export class In {
     try {
       // A file that cannot be read would look like a server that does not answer.
       const body = new File([await file.arrayBuffer()], file.name);
-      const { texture, library } = await server.open(body);
+      const stated = isPicture(file) ? await askMap(file) : {};
+      if (!stated) return null;
+      const { texture, library } = await server.open(body, stated);
       if (library) await gallery.add(library);
       else await loader.take(async () => texture, { kind: "open", name: file.name });
       return null;

@@ -12,6 +12,7 @@ use crate::{
     packing,
     studio::{OpenedFile, Studio},
 };
+use asperity::sources::surface::KEYS;
 use serde::Deserialize;
 use serde_json::json;
 
@@ -41,9 +42,13 @@ pub(super) fn open(
     body: &mut Body<'_, '_>,
 ) -> Result<Answer, ApiError> {
     let name = file_name(&head.target)?;
+    let stated: Vec<(&'static str, String)> = KEYS
+        .into_iter()
+        .filter_map(|key| Some((key, decoded(queried(&head.target, key)?)?)))
+        .collect();
     let kept = studio.send(|| {
         let bytes = body.read(FILE_BYTES)?;
-        studio.open(&name, bytes)
+        studio.open(&name, bytes, &stated)
     })?;
     Ok(Answer::json(match kept {
         OpenedFile::Texture(texture) => format!("{{\"texture\":{}}}", studio.shown(&texture)),
@@ -81,13 +86,16 @@ pub(super) fn pack(studio: &Studio, body: &mut Body<'_, '_>) -> Result<Answer, A
     Ok(Answer::new("application/octet-stream", content, Keep::No))
 }
 
+/// The value of a key in the query, still encoded.
+fn queried<'a>(target: &'a str, key: &str) -> Option<&'a str> {
+    let (_, query) = target.split_once('?')?;
+    let mut pairs = query.split('&').filter_map(|pair| pair.split_once('='));
+    pairs.find_map(|(found, value)| (found == key).then_some(value))
+}
+
 /// The name of the file that is opened, which errors repeat: `name` of the query.
 fn file_name(target: &str) -> Result<String, ApiError> {
-    let query = target.split_once('?').map_or("", |(_, query)| query);
-    let named = query
-        .split('&')
-        .find_map(|pair| pair.strip_prefix("name="))
-        .unwrap_or("asset.asp");
+    let named = queried(target, "name").unwrap_or("asset.asp");
     let name = decoded(named).filter(|name| (1..=NAME_BYTES).contains(&name.len()));
     name.ok_or_else(|| {
         ApiError::new(

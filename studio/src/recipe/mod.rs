@@ -43,7 +43,12 @@ pub(crate) enum Operation {
     /// A file holds the texture.
     File(Opened),
     /// `asperity import`, of a file as `hatt` or another kind
-    Import { kind: String, file: Opened },
+    Import {
+        kind: String,
+        file: Opened,
+        /// The rest of the command line, from a space on.
+        options: String,
+    },
     /// `asperity extract`
     Extract { library: Opened, texture: String },
     /// `asperity compile`
@@ -158,9 +163,14 @@ impl Step {
         let to = format!("-o {}", file(&self.id));
         Some(match &self.operation {
             Operation::File(_) => return None,
-            Operation::Import { kind, file } => {
-                format!("asperity import {kind} {} {to}", path_word(&file.path))
-            }
+            Operation::Import {
+                kind,
+                file,
+                options,
+            } => format!(
+                "asperity import {kind} {}{options} {to}",
+                path_word(&file.path)
+            ),
             Operation::Extract { library, texture } => {
                 let (library, word) = (path_word(&library.path), shell_word(texture));
                 if texture.starts_with('-') {

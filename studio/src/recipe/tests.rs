@@ -131,6 +131,7 @@ fn other_files_are_imported_and_textures_of_libraries_extracted() {
         Operation::Import {
             kind: kind.into(),
             file,
+            options: String::new(),
         },
     )
     .unwrap();

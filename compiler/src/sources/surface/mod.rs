@@ -16,5 +16,5 @@ pub use asperity_surface::{
     map::{Convention, Size, all},
 };
 pub use grid::Survey;
-pub use options::Options;
+pub use options::{KEYS, Options};
 pub use source::{KIND, Surface, Surveyed};

@@ -8,7 +8,7 @@ use asperity_surface::{
 };
 
 /// Keys of a manifest.
-pub(super) const KEYS: [&str; 5] = ["width_mm", "depth_mm", "normal", "like", "tip"];
+pub const KEYS: [&str; 5] = ["width_mm", "depth_mm", "normal", "like", "tip"];
 
 /// What a map does not say of its surface.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,8 +24,11 @@ pub struct Options {
 }
 
 impl Options {
-    /// Those of a manifest.
-    pub(super) fn stated(stated: &[(&str, String)]) -> Result<Self, Failure> {
+    /// Those of a manifest, as texts by [`KEYS`].
+    ///
+    /// # Errors
+    /// For a value that is none of its key.
+    pub fn stated(stated: &[(&str, String)]) -> Result<Self, Failure> {
         let text = |key: &str| {
             let (_, text) = stated.iter().find(|(stated, _)| *stated == key)?;
             Some(text.as_str()).filter(|text| !text.is_empty())
