@@ -192,7 +192,7 @@ async function hasAxis(browser) {
     await page.mouse.move(x + width / 2 - side * right, y + height / 2 - side * down);
     await page.mouse.down();
     await visit.take();
-    for (let step = 0; step < 240; step++) {
+    for (let step = 0; step < 126; step++) {
       const way = Math.sin(step / 10);
       await page.mouse.move(x + width / 2 + side * right * way, y + height / 2 + side * down * way);
       await page.waitForTimeout(8);
