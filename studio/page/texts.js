@@ -18,12 +18,10 @@ export const texts = {
   keys: {
     title: "Keys",
     close: "Close",
-    all: [
-      ["Drag, or arrows", "stroke the surface, while it has the focus"], ["Press, or Space", "tap it"],
+    all: [["Drag, or arrows", "stroke the surface, while it has the focus"], ["Press, or Space", "tap it"],
       ["Shift", "presses twice as hard"], ["Wheel, + − 0", "zoom; the wheel changes the force while you press"],
-      ["1 to 4", "switch the slots of the comparison"], ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
-      ["↑ in the prompt", "brings earlier prompts"], ["Escape in the prompt", "gives up what takes long"], ["?", "shows and hides this list"],
-    ],
+      ["1 to 4", "switch the slots of the comparison"], ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"], ["?", "shows and hides this list"],
+      ["↑ in the prompt", "brings earlier prompts"], ["Escape in the prompt", "gives up what takes long"]],
   },
   title: "Asperity Studio",
   titled: (name) => `${name} – Asperity Studio`,
@@ -33,7 +31,6 @@ export const texts = {
   theme: { auto: "Theme: system", light: "Theme: light", dark: "Theme: dark" },
 
   prompt: {
-    title: "Prompt",
     label: "Describe a surface",
     placeholder: "rough abrasive sheet with gritty particles",
     compile: "Compile",
@@ -161,7 +158,6 @@ export const texts = {
       seed: (seed) => `Seed ${seed}`,
     },
     mix: {
-      title: "Blend and compose",
       session: "This session", slots: "Slots", chosen: "Chosen", words: "Words …",
       words_of: (label) => `${label}: prompt`,
       placeholder: "a material or a prompt",
