@@ -160,6 +160,21 @@ fn a_port_that_is_taken_and_a_path_that_is_no_library_are_refused_with_a_remedy(
     ] {
         refused(folder, &["studio", "--no-open", path], &[named]);
     }
+    // Without a port that is asked for, another one does where the usual one is taken.
+    let _usual = TcpListener::bind("127.0.0.1:8417");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_asperity"))
+        .args(["studio", "--no-open"])
+        .envs(home(folder))
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("it starts");
+    let mut said = String::new();
+    let stderr = child.stderr.take().expect("a pipe");
+    BufReader::new(stderr).read_line(&mut said).expect("a line");
+    let _ = child.kill();
+    let _ = child.wait();
+    assert!(said.contains("port 8417 is taken"), "{said}");
     let usage = asperity(folder, &["studio", "--port", "65536"]);
     assert_eq!(usage.status.code(), Some(2));
 }

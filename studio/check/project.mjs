@@ -55,8 +55,19 @@ try {
   assert((await visit.page.$$(".axis input:enabled")).length === 4 && (await visit.page.textContent(".word .said")) === "cork", "its sliders and its reading");
   const redone = await after(visit.page, () => visit.page.click("#timeline button >> text=Redo"));
   assert(redone.told.includes("wet ice"), "redo goes on from there");
+  await visit.page.click("#compare .slot >> nth=2");
   const first = await after(visit.page, () => visit.page.click("#timeline .tile >> nth=1"));
   assert(first.told.includes("cork") && (await visit.page.inputValue("#prompt")).length > 0, "and any texture is shown again");
+
+  await visit.compile("felt");
+  const cut = { slots: await slots(visit.page), tiles: await tiles(visit.page) };
+  await visit.page.waitForTimeout(300);
+  await end();
+  ({ visit, end } = await begin());
+  await visit.page.waitForSelector("#timeline .tile[aria-current]");
+  assert(!cut.tiles.includes(redone.id) && (await slots(visit.page)).join() === cut.slots.join(), "a slot keeps what the session has no longer");
+  await after(visit.page, () => visit.page.click("#compare .slot >> nth=2"), ({ told }) => told.includes("wet ice"));
+  assert((await shown(visit.page)).id === redone.id, "and shows it again");
 
   const random = numbers(66);
   const words = ["rough", "soft", "wet", "polished", "dry"].flatMap((how) => ["oak", "steel", "felt", "slate", "wool"].map((what) => `${how} ${what}`));

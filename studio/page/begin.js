@@ -10,7 +10,7 @@ function showFirst({ state, server, loader, restore }) {
   state.on(["about"], async ({ about, texture, busy }) => {
     if (!about || texture || busy || begun) return;
     begun = true;
-    if (await restore().catch(() => false)) return;
+    if (await restore()) return;
     const { library, prompts, opens } = about;
     if (library?.id) {
       return loader.take(async (signal) => server.pick(await server.library(library.id, signal), 0, signal), { kind: "pick", name: library.name });

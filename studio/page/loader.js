@@ -122,7 +122,12 @@ export class Loader extends Events {
     try {
       await alive();
     } catch (error) {
-      if (!(error instanceof Silence)) return error instanceof Refusal && notify("server", { text: error.message, help: error.help });
+      if (!(error instanceof Refusal)) throw error;
+      if (!(error instanceof Silence)) {
+        // Another run of the studio stays another one.
+        clearInterval(this.#watch);
+        return notify("server", { text: error.message, help: error.help });
+      }
       // Whatever waits for it is tried again when it is back.
       if (state.get("busy")) this.#abort.abort(error);
       else this.#wait(alive, undefined, error);

@@ -2,6 +2,7 @@
 
 import { notify, withdraw } from "./dom.js";
 import { Refusal, Silence } from "./server.js";
+import { keptOf } from "./steer/session.js";
 import { texts } from "./texts.js";
 
 /** After this the project is written again, where the server was silent, ms. */
@@ -19,7 +20,7 @@ export function startProject({ server, state, session, compare }) {
     try {
       while (changed) {
         changed = false;
-        await server.keepProject({ ...session.kept, slots: compare.slots.map((entry) => session.entries.indexOf(entry)) });
+        await server.keepProject({ ...session.kept, slots: compare.slots.map((entry) => entry && keptOf(entry)) });
         withdraw("project");
       }
     } catch (error) {
@@ -34,14 +35,20 @@ export function startProject({ server, state, session, compare }) {
   return async (signal) => {
     const begin = () => [session, compare].forEach((part) => part.on("change", save));
     if (!state.get("about").project) return false;
-    const kept = await server.project(signal);
-    if (!kept.entries?.length) {
+    try {
+      const kept = await server.project(signal);
+      const isThere = kept.entries?.length > 0;
+      if (isThere) {
+        session.restore(kept);
+        compare.restore((kept.slots ?? []).map((slot) => slot && session.like(slot)));
+      }
       begin();
+      return isThere;
+    } catch (error) {
+      if (!(error instanceof Refusal)) throw error;
+      // What cannot be read is not written over.
+      notify("project", { text: texts.project.not_read(error.message), help: error.help });
       return false;
     }
-    session.restore(kept);
-    compare.restore((kept.slots ?? []).map((at) => session.entries[at] ?? null));
-    begin();
-    return true;
   };
 }

@@ -350,6 +350,7 @@ export const texts = {
   },
 
   project: {
+    not_read: (why) => `The project cannot be read, and nothing is kept now: ${why}`,
     not_kept: (why) => `The project is not kept: ${why}`,
   },
 

@@ -5,6 +5,9 @@ import { Prompt } from "./prompt.js";
 import { certaintyText, showNearest, showReading } from "./reading.js";
 import { texts } from "./texts.js";
 
+/** Textures whose prompts are known: more than a session has. */
+const MOST_PROMPTED = 256;
+
 /** An arrow along the ribs, the grain or the nap, and what a stroke along it meets. */
 function axisBadge({ axis, power_ratio, speed_ratio, mu_forward, mu_backward }) {
   const level_db = 10 * Math.log10(power_ratio) - 20 * Math.log10(speed_ratio);
@@ -61,14 +64,13 @@ export function startTexturePanels({ state, loader }) {
 
   // Sliders and words keep to the prompt that they began with, by the names of textures.
   const prompted = new Map();
-  const MOST = 256;
   loader.on("shown", ({ texture, how }) => {
     if (texture.compiled) prompted.set(texture.id, texture);
     else if (!prompted.has(texture.id)) {
       const base = how.entry?.base ?? how.base ?? how.of;
       prompted.set(texture.id, prompted.get(base?.id) ?? (base?.compiled && base));
     }
-    if (prompted.size > MOST) prompted.delete(prompted.keys().next().value);
+    if (prompted.size > MOST_PROMPTED) prompted.delete(prompted.keys().next().value);
     const from = prompted.get(texture.id) ?? texture;
     showReading(from.compiled);
     showNearest(from, prompt.compile);

@@ -14,7 +14,7 @@ use asperity::{
     passes::reduce::Fidelity,
     pipeline::{Clock, Request},
     sources::{
-        Tools,
+        Source, Tools,
         import::Imported,
         surface::{Options, Surface},
     },
@@ -22,11 +22,10 @@ use asperity::{
 };
 use asperity_io::{
     clock::now,
-    diagnostic::Diagnostic,
     input::{Format, InputError, InputProblem},
     shown::shell_word,
 };
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Leading bytes that tell what a file is, as for commands.
 const TELLING: usize = 64 << 10;
@@ -95,59 +94,56 @@ fn textures(file: &str, bytes: Vec<u8>) -> Result<FileContent, ApiError> {
 
 /// A file of another tool.
 fn import(imported: Imported, file: &str, bytes: &[u8]) -> Result<Texture, ApiError> {
-    let path = Path::new(file);
-    let tools = Tools {
-        given: Some((path, bytes)),
-        clock: Clock(now),
-        ..Tools::default()
-    };
-    let source = imported.source(path.to_owned());
-    let compiled = driver::compile(source.as_ref(), &imported.request(), &tools)
-        .map_err(|failure| refused(failure.as_ref()))?;
-    let making = Making {
-        made: Some(compiled.json()),
-        ..Making::default()
-    };
-    let opened = Opened {
-        path: file.to_owned(),
-        id: hash(bytes),
-    };
-    let operation = |_: &str| Operation::Import {
-        kind: imported.name().to_owned(),
-        file: opened,
-        options: String::new(),
-    };
-    Texture::new(compiled.lowered.bytes, making, operation).map_err(damaged)
+    let source = imported.source(PathBuf::from(file));
+    let command = (imported.name(), String::new());
+    let request = imported.request();
+    compiled(&*source, &request, Tools::default(), (file, bytes), command)
 }
 
 /// A picture of heights or normals, with what was stated of it, as `asperity import surface`.
 ///
 /// # Errors
-/// As the command, and without a prompt compiler.
+/// As the command.
 pub(crate) fn surface(
     file: &str,
     bytes: &[u8],
     stated: &[(&'static str, String)],
     loaded: &Loaded,
 ) -> Result<Texture, ApiError> {
-    let path = Path::new(file);
-    let failed = |failure: &dyn Diagnostic| refused(failure);
+    let options = Options::stated(stated).map_err(|failure| refused(&*failure))?;
     let source = Surface {
-        path: path.to_owned(),
-        options: Options::stated(stated).map_err(|failure| failed(&*failure))?,
-    };
-    let tools = Tools {
-        given: Some((path, bytes)),
-        clock: Clock(now),
-        ..Tools::of(&loaded.compiler)
+        path: PathBuf::from(file),
+        options,
     };
     let request = Request {
         fidelity: Fidelity::Auto,
         preview_px: Some(SIZE),
         ..Request::default()
     };
+    let words = stated
+        .iter()
+        .map(|(key, value)| format!(" --{} {}", key.replace('_', "-"), shell_word(value)));
+    let command = ("surface", words.collect());
+    let tools = Tools::of(&loaded.compiler);
+    compiled(&source, &request, tools, (file, bytes), command)
+}
+
+/// The texture of a file that is given by name and bytes; `command` is the kind of `asperity import`, with the rest of
+/// its line.
+fn compiled(
+    source: &dyn Source,
+    request: &Request,
+    tools: Tools<'_>,
+    (file, bytes): (&str, &[u8]),
+    (kind, options): (&str, String),
+) -> Result<Texture, ApiError> {
+    let tools = Tools {
+        given: Some((Path::new(file), bytes)),
+        clock: Clock(now),
+        ..tools
+    };
     let compiled =
-        driver::compile(&source, &request, &tools).map_err(|failure| failed(&*failure))?;
+        driver::compile(source, request, &tools).map_err(|failure| refused(failure.as_ref()))?;
     let making = Making {
         made: Some(compiled.json()),
         ..Making::default()
@@ -156,13 +152,10 @@ pub(crate) fn surface(
         path: file.to_owned(),
         id: hash(bytes),
     };
-    let options = stated
-        .iter()
-        .map(|(key, value)| format!(" --{} {}", key.replace('_', "-"), shell_word(value)));
     let operation = |_: &str| Operation::Import {
-        kind: "surface".into(),
+        kind: kind.to_owned(),
         file: opened,
-        options: options.collect(),
+        options,
     };
     Texture::new(compiled.lowered.bytes, making, operation).map_err(damaged)
 }

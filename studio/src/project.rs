@@ -11,12 +11,18 @@ use crate::{
     http::Status,
     texture::{ID_LETTERS, Record, Texture},
 };
-use asperity_io::{diagnostic::Fault, output, shown::counted};
+use asperity_io::{
+    diagnostic::Fault,
+    output::{self, OutputError},
+    shown::counted,
+};
 use serde_json::Value;
 use std::{
+    collections::BTreeSet,
     fs::{self, File, TryLockError},
     io,
     path::{Path, PathBuf},
+    sync::Arc,
 };
 
 const STATE: &str = "project.json";
@@ -88,17 +94,19 @@ impl Project {
 
     /// Removes the textures that the page shows no longer.
     fn tidy(&self) -> io::Result<()> {
-        let state = match fs::read_to_string(self.folder.join(STATE)) {
-            Ok(state) => state,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                return fs::write(self.folder.join(STATE), "{}");
-            }
-            Err(error) => return Err(error),
+        if !Self::is_one(&self.folder) {
+            return fs::write(self.folder.join(STATE), "{}");
+        }
+        // What cannot be read may still be mended by hand.
+        let state = fs::read(self.folder.join(STATE))?;
+        let Ok(shown) = serde_json::from_slice(&state) else {
+            return Ok(());
         };
+        let shown = ids(&shown);
         for entry in fs::read_dir(&self.folder)?.flatten() {
             let path = entry.path();
             let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-            if is_id(&stem) && !state.contains(&*stem) {
+            if is_id(&stem) && !shown.contains(&*stem) {
                 fs::remove_file(&path)?;
             }
         }
@@ -116,27 +124,37 @@ impl Project {
         })
     }
 
-    /// Keeps what the page shows, all of it or nothing.
+    /// Keeps what the page shows: first the textures that it names, of those that `made` knows, and then that, all of it or
+    /// nothing.
     ///
     /// # Errors
     /// For what is no JSON object, and where it cannot be written.
-    pub(crate) fn save(&self, state: &[u8]) -> Result<(), ApiError> {
-        if !serde_json::from_slice(state).is_ok_and(|value: Value| value.is_object()) {
+    pub(crate) fn save(
+        &self,
+        state: &[u8],
+        made: impl Fn(&str) -> Option<Arc<Texture>>,
+    ) -> Result<(), ApiError> {
+        let shown = serde_json::from_slice(state).ok().filter(Value::is_object);
+        let shown = shown.ok_or_else(|| {
             let error = "a project is a JSON object";
-            return Err(ApiError::new(Status::BadRequest, error, "reload the page"));
+            ApiError::new(Status::BadRequest, error, "reload the page")
+        })?;
+        let new = ids(&shown)
+            .into_iter()
+            .filter(|id| !self.files(id)[1].exists());
+        for texture in new.filter_map(made) {
+            self.keep(&texture).map_err(|error| refused(&error))?;
         }
         output::write_atomic(&self.folder.join(STATE), state).map_err(|error| refused(&error))
     }
 
-    /// Keeps a texture. Where that fails, as on a full disk, so does keeping what the page shows, which says it.
-    pub(crate) fn keep(&self, texture: &Texture) {
+    /// Keeps a texture: its record last, without which it does not count.
+    fn keep(&self, texture: &Texture) -> Result<(), OutputError> {
         let [asset, record] = self.files(texture.id());
-        if record.exists() {
-            return;
-        }
+        // Plain structures of numbers and strings always serialise.
         let written = serde_json::to_vec(&texture.record()).unwrap_or_default();
-        let _ = output::write_atomic(&asset, texture.asset())
-            .and_then(|()| output::write_atomic(&record, &written));
+        output::write_atomic(&asset, texture.asset())?;
+        output::write_atomic(&record, &written)
     }
 
     /// A texture that was kept; `None` where it was not, or is damaged.
@@ -152,6 +170,16 @@ impl Project {
 
     fn files(&self, id: &str) -> [PathBuf; 2] {
         ["asp", "json"].map(|ending| self.folder.join(format!("{id}.{ending}")))
+    }
+}
+
+/// The names of textures in what the page shows.
+fn ids(shown: &Value) -> BTreeSet<&str> {
+    match shown {
+        Value::String(text) if is_id(text) => BTreeSet::from([text.as_str()]),
+        Value::Array(values) => values.iter().flat_map(ids).collect(),
+        Value::Object(fields) => fields.values().flat_map(ids).collect(),
+        _ => BTreeSet::new(),
     }
 }
 
@@ -189,9 +217,9 @@ mod tests {
         let said = Project::open(&own).unwrap_err().to_string();
         assert!(said.contains("another studio"), "{said}");
         for state in [&b"[]"[..], b"", b"{"] {
-            assert!(project.save(state).is_err());
+            assert!(project.save(state, |_| None).is_err());
         }
-        project.save(b"{\"at\":1}").unwrap();
+        project.save(b"{\"at\":1}", |_| None).unwrap();
         drop(project);
         let again = Project::open(&own).unwrap();
         assert_eq!(again.state().unwrap(), b"{\"at\":1}");
@@ -203,18 +231,20 @@ mod tests {
     fn a_texture_is_kept_to_the_byte_as_long_as_it_is_shown() {
         let folder = tempfile::tempdir().unwrap();
         let project = Project::open(folder.path()).unwrap();
-        let texture = texture();
-        project.keep(&texture);
+        let texture = Arc::new(texture());
         let shown = texture.shown(None);
+        let state = format!(
+            "{{\"entries\":[{{\"texture\":{{\"id\":{:?}}}}}]}}",
+            texture.id()
+        );
+        let made = |id: &str| (id == texture.id()).then(|| Arc::clone(&texture));
+        project.save(state.as_bytes(), made).unwrap();
         let kept = project.texture(texture.id()).unwrap();
         assert_eq!(kept.shown(None), shown);
         assert!(shown.contains("--seed 3"), "{shown}");
         for id in ["", "../project", &"f".repeat(ID_LETTERS)] {
             assert!(project.texture(id).is_none(), "{id}");
         }
-        project
-            .save(format!("{{\"entries\":[{:?}]}}", texture.id()).as_bytes())
-            .unwrap();
         drop(project);
         let project = Project::open(folder.path()).unwrap();
         assert!(project.texture(texture.id()).is_some());
@@ -222,9 +252,12 @@ mod tests {
         let whole = fs::read(&asset).unwrap();
         fs::write(&asset, &whole[..whole.len() - 1]).unwrap();
         assert!(project.texture(texture.id()).is_none(), "it is damaged");
-        project.save(b"{}").unwrap();
+        project.save(b"{}", |_| None).unwrap();
         drop(project);
         drop(Project::open(folder.path()).unwrap());
         assert!(!asset.exists() && !record.exists());
+        let project = Project::open(folder.path()).unwrap();
+        folder.close().unwrap();
+        assert!(project.save(state.as_bytes(), made).is_err(), "it is said");
     }
 }

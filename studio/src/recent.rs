@@ -7,9 +7,9 @@ use std::{
 };
 
 /// Textures that are kept: more than a session has.
-const MOST: usize = 256;
+pub(crate) const MOST: usize = 256;
 /// Drafts that are kept, which are heard while a slider moves.
-const MOST_DRAFTS: usize = 16;
+pub(crate) const MOST_DRAFTS: usize = 16;
 /// Bytes of assets that are kept: opened ones may be large.
 const MOST_BYTES: usize = 256 << 20;
 
@@ -20,10 +20,10 @@ pub(crate) struct Recent {
 }
 
 impl Recent {
-    /// No texture yet, of the session or of its drafts.
-    pub(crate) fn new(drafts: bool) -> Self {
+    /// No texture yet, of so many.
+    pub(crate) fn new(most: usize) -> Self {
         Self {
-            most: if drafts { MOST_DRAFTS } else { MOST },
+            most,
             kept: Mutex::default(),
         }
     }
@@ -60,7 +60,7 @@ mod tests {
     #[test]
     fn the_last_256_are_kept_each_once() {
         let named = |n: usize| texture(&format!("texture {n}"), 1);
-        let recent = Recent::new(false);
+        let recent = Recent::new(MOST);
         let first = named(0);
         recent.keep(Arc::clone(&first));
         for n in 1..MOST {
@@ -77,7 +77,7 @@ mod tests {
 
     #[test]
     fn assets_of_256_mib_are_kept_and_not_a_byte_more() {
-        let recent = Recent::new(false);
+        let recent = Recent::new(MOST);
         let kept = |ids: &[&str]| ids.iter().filter(|id| recent.get(id).is_some()).count();
         recent.keep(texture("half", 128 << 20));
         recent.keep(texture("rest", (128 << 20) - 1));

@@ -12,7 +12,7 @@ use crate::{
     opening::{self, FileContent},
     project::Project,
     prompts::{LoadPrompts, Loaded, Prompts},
-    recent::Recent,
+    recent::{self, Recent},
     texture::Texture,
 };
 use std::sync::Arc;
@@ -44,8 +44,8 @@ impl Studio {
             shelf: LibraryStore::new(collection),
             device: None,
             prompts: Prompts::new(prompts),
-            recent: Recent::new(false),
-            drafts: Recent::new(true),
+            recent: Recent::new(recent::MOST),
+            drafts: Recent::new(recent::MOST_DRAFTS),
             project: None,
             computing: Limiter::computing(),
             sending: Limiter::sending(),
@@ -68,6 +68,14 @@ impl Studio {
             project: Some(project),
             ..self
         }
+    }
+
+    /// Keeps what the page shows in the project.
+    ///
+    /// # Errors
+    /// As [`Project::save`], and without a project.
+    pub(crate) fn save(&self, state: &[u8]) -> Result<(), ApiError> {
+        self.project()?.save(state, |id| self.recent.get(id))
     }
 
     /// The project.
@@ -219,9 +227,6 @@ impl Studio {
 
     fn keep(&self, texture: Texture) -> Arc<Texture> {
         let texture = Arc::new(texture);
-        if let Some(project) = &self.project {
-            project.keep(&texture);
-        }
         self.recent.keep(Arc::clone(&texture));
         texture
     }

@@ -8,14 +8,13 @@
 
 use super::{
     facts::Facts,
-    user_folder::{check_folder, make_folder, open_plain},
+    user_folder::{check_folder, make_folder, open_plain, user_folder, variable},
 };
 use crate::sources::key::{Key, Parts};
 use asperity_formats::Asset;
 use asperity_io::input::InputKind;
 use asperity_io::output::AtomicFile;
 use std::{
-    env,
     io::{self, Read as _},
     path::{Path, PathBuf},
     sync::atomic::{AtomicBool, Ordering},
@@ -46,27 +45,6 @@ pub fn default_folder() -> Option<PathBuf> {
         return Some(folder);
     }
     user_folder("XDG_CACHE_HOME", ".cache", "Library/Caches")
-}
-
-/// Asperity's part of a folder of this user: that of an XDG variable, else below the home folder; on macOS the one named
-/// last, on Windows that for local data. `None` where no variable names one.
-#[must_use]
-pub fn user_folder(xdg: &str, home: &str, macos: &str) -> Option<PathBuf> {
-    let platform = if cfg!(windows) {
-        variable("LOCALAPPDATA")
-    } else if cfg!(target_os = "macos") {
-        variable("HOME").map(|folder| folder.join(macos))
-    } else {
-        // The XDG specification ignores relative paths.
-        let xdg = variable(xdg).filter(|folder| folder.is_absolute());
-        xdg.or_else(|| variable("HOME").map(|folder| folder.join(home)))
-    };
-    platform.map(|folder| folder.join("asperity"))
-}
-
-fn variable(name: &str) -> Option<PathBuf> {
-    let value = env::var_os(name).filter(|value| !value.is_empty());
-    value.map(PathBuf::from)
 }
 
 impl Cache {

@@ -1,10 +1,33 @@
-//! Plain files in a folder of the user's own: what others could have put there is not opened.
+//! Folders of the user's own, and plain files in them: what others could have put there is not opened.
 
 use std::{
+    env,
     fs::{self, DirBuilder, File, Metadata, OpenOptions},
     io,
-    path::Path,
+    path::{Path, PathBuf},
 };
+
+/// Asperity's part of a folder of this user: that of an XDG variable, else below the home folder; on macOS the one named
+/// last, on Windows that for local data. `None` where no variable names one.
+#[must_use]
+pub fn user_folder(xdg: &str, home: &str, macos: &str) -> Option<PathBuf> {
+    let platform = if cfg!(windows) {
+        variable("LOCALAPPDATA")
+    } else if cfg!(target_os = "macos") {
+        variable("HOME").map(|folder| folder.join(macos))
+    } else {
+        // The XDG specification ignores relative paths.
+        let xdg = variable(xdg).filter(|folder| folder.is_absolute());
+        xdg.or_else(|| variable("HOME").map(|folder| folder.join(home)))
+    };
+    platform.map(|folder| folder.join("asperity"))
+}
+
+/// A path that an environment variable holds.
+pub(super) fn variable(name: &str) -> Option<PathBuf> {
+    let value = env::var_os(name).filter(|value| !value.is_empty());
+    value.map(PathBuf::from)
+}
 
 /// Checks a folder: the user's own, and none in which every user may write, rename and remove.
 /// `links` says whether the folder may be reached through a symbolic link.

@@ -12,6 +12,10 @@ const SAID = ["kind", "words", "t", "seed", "prompt", "walks"];
 
 const slim = ({ id, name }) => ({ id, name });
 
+/** What a project keeps of an entry. */
+export const keptOf = ({ texture, base, steps, how }) => ({ texture: slim(texture), base: slim(base), steps,
+  how: Object.fromEntries(SAID.filter((name) => how[name] !== undefined).map((name) => [name, how[name]])) });
+
 /** Emits "change". */
 export class Session extends Events {
   entries = [];
@@ -71,9 +75,12 @@ export class Session extends Events {
 
   /** What a project keeps of it. */
   get kept() {
-    const entry = ({ texture, base, steps, how }) => ({ texture: slim(texture), base: slim(base), steps,
-      how: Object.fromEntries(SAID.filter((name) => how[name] !== undefined).map((name) => [name, how[name]])) });
-    return { version: 1, entries: this.entries.map(entry), at: this.#at };
+    return { version: 1, entries: this.entries.map(keptOf), at: this.#at };
+  }
+
+  /** The entry of the same texture and base, or else this one itself. */
+  like(entry) {
+    return this.entries.find(({ texture, base }) => texture.id === entry.texture.id && base.id === entry.base.id) ?? entry;
   }
 
   /** Brings back what a project kept, and shows it. */

@@ -50,8 +50,7 @@ pub(crate) fn answer(
         "api/about.json" => Ok(Answer::only("GET, HEAD")),
         "api/project.json" if reads => Ok(Answer::json(studio.project()?.state()?)),
         "api/project.json" if posts => {
-            let project = studio.project()?;
-            project.save(&body.read(STATE_BYTES)?)?;
+            studio.save(&body.read(STATE_BYTES)?)?;
             Ok(Answer::json("{}"))
         }
         "api/project.json" => Ok(Answer::only("GET, HEAD, POST")),

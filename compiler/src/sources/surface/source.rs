@@ -104,9 +104,9 @@ pub const KIND: SourceKind = SourceKind {
 };
 
 impl Surface {
-    /// The files of the path; one that is no folder stands for the heights.
-    fn material(&self) -> Result<Material, Fault> {
-        if self.path.is_dir() {
+    /// The files of the path; one that is no folder stands for the heights. Bytes that are given are those of one file.
+    fn material(&self, tools: &Tools<'_>) -> Result<Material, Fault> {
+        if tools.given.is_none() && self.path.is_dir() {
             return Material::of(&self.path);
         }
         Ok(Material {
@@ -132,7 +132,7 @@ impl Surface {
             let map = map.map_err(|fault| fault.at(&self.path))?;
             return Ok((map, None, crc32fast::hash(&bytes)));
         }
-        let material = self.material()?;
+        let material = self.material(tools)?;
         let mut hasher = crc32fast::Hasher::new();
         let mut raster = |file: &Option<PathBuf>| -> Result<Option<Raster>, Failure> {
             let Some(file) = file else {
@@ -175,7 +175,7 @@ impl Source for Surface {
     }
 
     fn inputs(&self) -> Vec<PathBuf> {
-        match self.material() {
+        match self.material(&Tools::default()) {
             Ok(material) => material.files().cloned().collect(),
             // Reading it says why.
             Err(_) => vec![self.path.clone()],
@@ -189,6 +189,10 @@ impl Source for Surface {
         pipeline: &mut Pipeline,
     ) -> Result<SourceOutput, Failure> {
         let Options { like, tip, .. } = &self.options;
+        let files = match tools.given {
+            Some(_) => vec![self.path.clone()],
+            None => self.inputs(),
+        };
         let (mut map, color, crc32) = pipeline.run(Pass::Read, || self.read(tools))?;
         let words = match like {
             Some(text) => {
@@ -280,7 +284,7 @@ impl Source for Surface {
             None => picture::of_heights(field, size_px),
         });
         let surveyed = Surveyed {
-            files: self.inputs(),
+            files,
             pixels: map.pixels,
             points: [field.width(), field.height()],
             pitch_mm: field.pitch_mm(),
@@ -322,7 +326,7 @@ fn scale(field: &mut HeightField, tip: Tip, modulus_mpa: f64, wanted_db: f64) ->
 }
 
 impl ManifestSource for Surface {
-    fn key(&self, parts: Parts, _: &Tools<'_>) -> Result<Parts, Failure> {
+    fn key(&self, parts: Parts, tools: &Tools<'_>) -> Result<Parts, Failure> {
         let Options {
             size,
             like,
@@ -336,7 +340,7 @@ impl ManifestSource for Surface {
             .number(tip.modulus_mpa)
             .text(convention.map_or("", Convention::name))
             .text(like.as_deref().unwrap_or_default());
-        let material = self.material()?;
+        let material = self.material(tools)?;
         let mut files = material.files();
         Ok(files.try_fold(parts, |parts, file| parts.file(file, InputKind::HeightMap))?)
     }

@@ -96,11 +96,9 @@ impl Pictures {
             let what = format!("heights have {columns} × {rows} pixels, normals {x} × {y}");
             return Err(Fault::new(what, "scale both to the same size"));
         }
-        let placed = |raster: &Raster| {
-            let file = raster.file.clone();
-            move |fault: Fault| fault.at(file)
-        };
-        let pitch_mm = size.pitch_mm(raster).map_err(placed(raster))?;
+        let pitch_mm = size
+            .pitch_mm(raster)
+            .map_err(|fault| fault.at(&raster.file))?;
         let mut notes = raster.notes.clone();
         if (raster.aspect - 1.0).abs() > UNEQUAL {
             notes.push(format!(
@@ -111,7 +109,7 @@ impl Pictures {
         let field = match height {
             Some(raster) => {
                 let found = by_heights(raster, pitch_mm, size.depth_mm, &mut notes);
-                Some(found.map_err(placed(raster))?)
+                Some(found.map_err(|fault| fault.at(&raster.file))?)
             }
             None => None,
         };
@@ -124,7 +122,7 @@ impl Pictures {
             }
             (Some(raster), ..) => {
                 let found = self.by_normals(raster, pitch_mm, &mut notes);
-                Some(found.map_err(placed(raster))?)
+                Some(found.map_err(|fault| fault.at(&raster.file))?)
             }
         };
         let has_depth = size.depth_mm.is_some() || by_normals.is_some();
