@@ -78,6 +78,14 @@ const STATES = {
   },
 };
 
+/** A page that begins with nothing in its project, whatever was drawn before. */
+async function begin(browser, colorScheme) {
+  const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, colorScheme });
+  await page.route("**/api/project.json", (route) => route.fulfill({ json: {} }));
+  await page.goto(address);
+  return page;
+}
+
 async function animate(page) {
   mkdirSync(frames, { recursive: true });
   await STATES.start(page);
@@ -91,17 +99,12 @@ async function animate(page) {
 
 const browser = await chromium.launch({ executablePath, args: ["--autoplay-policy=no-user-gesture-required", "--no-sandbox"] });
 for (const colorScheme of ["light", "dark"]) {
-  const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, colorScheme });
-  await page.goto(address);
+  const page = await begin(browser, colorScheme);
   for (const [name, reach] of Object.entries(STATES)) {
     await reach(page);
     await page.screenshot({ path: join(folder, `studio-${name}-${colorScheme}.png`) });
   }
   await page.close();
 }
-if (frames) {
-  const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, colorScheme: "light" });
-  await page.goto(address);
-  await animate(page);
-}
+if (frames) await animate(await begin(browser, "light"));
 await browser.close();

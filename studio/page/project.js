@@ -32,11 +32,11 @@ export function startProject({ server, state, session, compare }) {
     }
   };
 
-  return async (signal) => {
+  return async () => {
     const begin = () => [session, compare].forEach((part) => part.on("change", save));
     if (!state.get("about").project) return false;
     try {
-      const kept = await server.project(signal);
+      const kept = await server.project();
       const isThere = kept.entries?.length > 0;
       if (isThere) {
         session.restore(kept);

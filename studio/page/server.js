@@ -117,8 +117,8 @@ export class Server {
   }
 
   /** What the project keeps of the page; without anything, an empty object. */
-  project(signal) {
-    return this.#json("api/project.json", { signal });
+  project() {
+    return this.#json("api/project.json", {});
   }
 
   keepProject(kept) {

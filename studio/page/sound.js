@@ -26,9 +26,9 @@ export class SoundFailure extends Error {
 }
 
 /**
- * Emits "state"; "louder" with what the level has to go up or down by, dB; "failure" with a `SoundFailure`; "loaded" and "refused" with the renderer's status of a texture; its "ticks";
- * "limit" with what the limiter takes off, dB; "path" with the phase of the hand that moves by itself, or null when another
- * took its place.
+ * Emits "state"; "failure" with a `SoundFailure`; "loaded" and "refused" with the renderer's status of a texture; "louder"
+ * with what the level has to go down by for a texture, dB; its "ticks"; "limit" with what the limiter takes off, dB; "path"
+ * with the phase of the hand that moves by itself, or null when another took its place.
  */
 export class Sound extends Events {
   /** "off", "starting", "on" or "suspended". */
