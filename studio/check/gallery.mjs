@@ -2,6 +2,7 @@
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { clean, downloaded, run, shown } from "./aid.mjs";
+import { several } from "./own.mjs";
 
 const COUNT = 1000;
 const KINDS = ["cork", "wet ice", "brushed steel", "soft velvet", "coarse sandpaper", "oak board", "smooth glass", "thick carpet", "Käsepapier", "rough brick"];
@@ -185,7 +186,7 @@ export async function gallery(visit, { assert, asperity, work }) {
   libraries(asperity, folder);
   const table = JSON.parse(run(asperity, folder, "list", "many.aspl", "--json")).textures;
   await page.click("#views label:nth-child(2)");
-  assert((await page.textContent("#gallery")).includes("asperity studio library.aspl"), "without a library, the gallery says how to get one");
+  assert((await page.textContent(".start")).includes("asperity studio library.aspl"), "without a library, the gallery says how to get one");
   await clean(page, assert, "without a library", "light");
   await page.setInputFiles("#open-files", join(folder, "many.aspl"));
   await page.waitForSelector(".cell");
@@ -194,6 +195,7 @@ export async function gallery(visit, { assert, asperity, work }) {
   await searched(visit, assert);
   await ordered(visit, assert, table);
   await picked(visit, { assert, asperity, folder }, table.map(({ name }) => name));
+  await several(visit, { assert });
   await scattered(visit, { assert, asperity, folder });
   await compared(visit, { assert, asperity, folder });
 }

@@ -1,13 +1,13 @@
 // A project outlives its studio: what was made, undo and slots are there again, to the byte, whatever moment it is killed at.
 //
 //   STUDIO_MODULES=…/node_modules ASPERITY=… node project.mjs CHROMIUM [KILLS]
-import { spawn } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { assert, chromium } from "./chromium.mjs";
 import { numbers } from "./expect.mjs";
 import { after, bytesOf, shown } from "./steering.mjs";
+import { begun } from "./studio.mjs";
 import { Visit } from "./visit.mjs";
 
 const [executablePath, kills = "2"] = process.argv.slice(2);
@@ -16,16 +16,10 @@ const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "
 
 /** A studio with the project, and a visit of its page. */
 async function begin() {
-  const studio = spawn(process.env.ASPERITY, ["studio", "--no-open", "--port", "0", "--project", join(folder, "own")]);
-  const address = await new Promise((done, failed) => {
-    studio.stdout.on("data", (text) => done(String(text).trim()));
-    studio.stderr.on("data", (text) => failed(new Error(String(text))));
-  });
-  const visit = await Visit.begin(browser, address);
+  const studio = await begun(process.env.ASPERITY, ["--project", join(folder, "own")]);
+  const visit = await Visit.begin(browser, studio.address);
   return { visit, end: async () => {
-    const ended = new Promise((done) => studio.on("exit", done));
-    studio.kill("SIGKILL");
-    await ended;
+    await studio.kill();
     await visit.end();
   } };
 }

@@ -47,6 +47,11 @@ export function remember(name, value) {
   }
 }
 
+/** Whether an event belongs to a field in which a person writes. */
+const NO_TEXT = ["range", "checkbox", "radio", "button", "submit", "file", "color"];
+export const writes = ({ target }) => target.isContentEditable || target.matches?.("textarea, select")
+  || (target.matches?.("input") && !NO_TEXT.includes(target.type));
+
 /** Runs what a button does, which is busy meanwhile and does it once; it is not disabled, which would take the focus away. */
 export async function busily(button, run) {
   if (button.getAttribute("aria-busy") === "true") return;

@@ -1,9 +1,7 @@
 // What is not needed at every stroke: drawers below the surface, which stay as they were left, and the list of keys.
 
-import { element, find, recall, remember } from "./dom.js";
+import { element, find, recall, remember, writes } from "./dom.js";
 import { texts } from "./texts.js";
-
-const writes = ({ target }) => target.isContentEditable || target.matches?.("textarea, select, input[type=text]");
 
 export function startDrawers() {
   const drawers = [...document.querySelectorAll(".drawers > details")];

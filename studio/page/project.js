@@ -1,4 +1,4 @@
-// What is made stays: the server keeps session and slots as they change, and gives them back at the start.
+// What is made stays: the server keeps session, slots and library as they change, and gives them back at the start.
 
 import { notify, withdraw } from "./dom.js";
 import { Refusal, Silence } from "./server.js";
@@ -7,37 +7,44 @@ import { texts } from "./texts.js";
 
 /** After this the project is written again, where the server was silent, ms. */
 const AGAIN_MS = 3000;
+/** The status of a project that another page has taken over. */
+const CONFLICT = 409;
 
-/** Returns what brings back the project that the server has: whether there was anything in it. */
-export function startProject({ server, state, session, compare }) {
-  let saving = false;
+/** { restore, flush }: brings back the project that the server has, and tells whether there was one; waits until it is written. */
+export function startProject({ server, state, session, compare, own }) {
+  let saving = null;
   let changed = false;
 
-  const save = async () => {
-    changed = true;
-    if (saving || !state.get("about")?.project) return;
-    saving = true;
+  const write = async () => {
     try {
       while (changed) {
         changed = false;
-        await server.keepProject({ ...session.kept, slots: compare.slots.map((entry) => entry && keptOf(entry)) });
+        const slots = compare.slots.map((entry) => entry && keptOf(entry));
+        await server.keepProject({ ...session.kept, slots, library: own.items });
         withdraw("project");
       }
     } catch (error) {
       if (!(error instanceof Refusal)) throw error;
-      if (error instanceof Silence) setTimeout(save, AGAIN_MS);
-      else notify("project", { text: texts.project.not_kept(error.message), help: error.help, action: { label: texts.server.retry, run: save } });
+      if (error instanceof Silence) return void setTimeout(save, AGAIN_MS);
+      const action = error.status === CONFLICT ? { label: texts.project.reload, run: () => location.reload() } : { label: texts.server.retry, run: save };
+      notify("project", { text: texts.project.not_kept(error.message), help: error.help, action });
     } finally {
-      saving = false;
+      saving = null;
     }
   };
+  const save = () => {
+    changed = true;
+    if (state.get("about")?.project) saving ??= write();
+    return saving;
+  };
 
-  return async () => {
-    const begin = () => [session, compare].forEach((part) => part.on("change", save));
+  const restore = async () => {
+    const begin = () => [session, compare, own].forEach((part) => part.on("change", save));
     if (!state.get("about").project) return false;
     try {
       const kept = await server.project();
       const isThere = kept.entries?.length > 0;
+      own.restore(kept.library ?? []);
       if (isThere) {
         session.restore(kept);
         compare.restore((kept.slots ?? []).map((slot) => slot && session.like(slot)));
@@ -51,4 +58,5 @@ export function startProject({ server, state, session, compare }) {
       return false;
     }
   };
+  return { restore, flush: save };
 }

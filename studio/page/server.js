@@ -5,11 +5,11 @@ import { ModuleFailure } from "./offline/module.js";
 import { Offline } from "./offline/offline.js";
 import { texts } from "./texts.js";
 
-/** The server refused; `message` and `help` are the texts of the command. */
+/** The server refused; `message` and `help` are the texts of the command, `status` that of HTTP. */
 export class Refusal extends Error {
-  constructor(message, help) {
+  constructor(message, help, status) {
     super(message);
-    this.help = help;
+    Object.assign(this, { help, status });
   }
 }
 
@@ -22,6 +22,7 @@ export class Server {
   #exported = false;
   /** Who answers where files do not, or `null`. */
   #offline = null;
+  #project = `api/project.json?page=${Math.random().toString(36).slice(2)}`;
 
   constructor(base = document.baseURI) {
     this.#base = base;
@@ -116,13 +117,13 @@ export class Server {
     return this.#json(`api/texture/${texture.id}.page.json`, { signal });
   }
 
-  /** What the project keeps of the page; without anything, an empty object. */
+  /** What the project keeps of the page; without anything, an empty object. From then on this page alone writes it. */
   project() {
-    return this.#json("api/project.json", {});
+    return this.#json(this.#project, {});
   }
 
   keepProject(kept) {
-    return this.#post("api/project.json", kept);
+    return this.#post(this.#project, kept);
   }
 
   /** A file of a texture by its ending, such as "asp" or "export.wav": a Blob. */
@@ -188,7 +189,7 @@ export class Server {
     }
     if (response.ok) return response;
     const { error, help } = await response.json().catch(() => ({}));
-    if (error) throw new Refusal(error, help);
+    if (error) throw new Refusal(error, help, response.status);
     if (this.#exported) throw new Refusal(texts.exported.missing(path), texts.exported.missing_help);
     // Without the token there is no text.
     if (response.status === 404) throw new Refusal(texts.server.other_run, texts.server.other_run_help);

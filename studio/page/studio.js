@@ -9,6 +9,8 @@ import { In } from "./files/in.js";
 import { Out } from "./files/out.js";
 import { startGallery } from "./gallery/gallery.js";
 import { startHandPanel } from "./hand-panel.js";
+import { OwnLibrary } from "./library/own.js";
+import { startOwnLibrary } from "./library/panel.js";
 import { Loader } from "./loader.js";
 import { mountPlots } from "./plots/plots.js";
 import { startProject } from "./project.js";
@@ -75,9 +77,11 @@ startSoundPanel({ sound, hand });
 const loader = new Loader({ server, state, surface, sound });
 startTexturePanels({ state, loader });
 const { session, compare } = startSteering({ server, state, loader, sound });
-const restore = startProject({ server, state, session, compare });
-const gallery = startGallery({ server, state, loader });
-new Out({ server, state, loader });
+const own = new OwnLibrary();
+const { restore, flush } = startProject({ server, state, session, compare, own });
+const gallery = startGallery({ server, state, loader, own, flush });
+startOwnLibrary({ server, state, loader, own, from: (texture) => gallery.from(texture), browse: () => gallery.browse() });
+new Out({ server, state });
 new In({ server, state, loader, gallery });
 // Static files show textures and make none.
 state.on(["about"], ({ about }) => {

@@ -72,7 +72,7 @@ impl Download {
             Self::Asset => Arc::clone(texture.asset()),
             Self::Worklet => texture.worklet()?,
             Self::Json => texture.inspected().into_bytes().into(),
-            Self::Picture => texture.pictures()?.color,
+            Self::Picture => texture.picture()?,
             Self::Normals => texture.pictures()?.normal,
             Self::Heights => texture.pictures()?.height,
             Self::Plot => {

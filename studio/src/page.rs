@@ -31,9 +31,10 @@ pub(crate) const FILES: &[File] = files! {
         "server.js" "sound-panel.js" "sound.js" "studio.js" "suggest.js" "surface.js" "texts.js" "texture-panels.js"
         "view.js" "worklet.js"
         "device/feed.js" "device/jitter.js" "device/panel.js"
-        "files/in.js" "files/map.js" "files/out.js" "files/pack.js"
-        "gallery/attributes.js" "gallery/compare.js" "gallery/filters.js" "gallery/gallery.js" "gallery/grid.js"
+        "files/in.js" "files/map.js" "files/out.js"
+        "gallery/attributes.js" "gallery/chosen.js" "gallery/compare.js" "gallery/filters.js" "gallery/gallery.js" "gallery/grid.js"
         "gallery/library.js" "gallery/scatter.js" "gallery/span.js" "gallery/thumbnails.js"
+        "library/own.js" "library/panel.js"
         "offline/module.js" "offline/offline.js" "offline/worker.js"
         "output/chain.js" "output/equaliser-panel.js" "output/equaliser.js" "output/loudness.js" "output/modes.js" "output/motors.js"
         "output/panel.js" "output/response.js" "output/shift.js" "output/tones.js"
@@ -42,7 +43,8 @@ pub(crate) const FILES: &[File] = files! {
         "plots/plane.js" "plots/plots.js" "plots/ring.js" "plots/scale.js" "plots/scope.js"
         "plots/spectrum.js" "plots/stage.js" "plots/strip.js" "plots/texts.js" "plots/waveform.js"
         "steer/axis.js" "steer/choice.js" "steer/compare.js" "steer/feel.js" "steer/live.js" "steer/mix.js"
-        "steer/session.js" "steer/slots.js" "steer/steer.js" "steer/timeline.js" "steer/words.js";
+        "steer/session.js" "steer/slots.js" "steer/steer.js" "steer/timeline.js" "steer/words.js"
+        "texts/files.js" "texts/gallery.js" "texts/number.js" "texts/sound.js" "texts/steer.js";
     "application/wasm": "asperity.wasm";
     "image/svg+xml": "icon.svg";
 };

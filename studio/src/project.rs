@@ -2,7 +2,7 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `project.json` | what the page shows: the session, its slots |
+//! | `project.json` | what the page shows: the session, its slots, the library of what was chosen |
 //! | `ID.asp`, `ID.json` | a texture, and how it was made |
 //! | `lock` | nothing; one studio at a time holds it |
 
@@ -22,13 +22,13 @@ use std::{
     fs::{self, File, TryLockError},
     io,
     path::{Path, PathBuf},
-    sync::Arc,
+    sync::{Arc, Mutex, PoisonError},
 };
 
 const STATE: &str = "project.json";
 const LOCK: &str = "lock";
 /// Bytes of what the page shows.
-pub(crate) const STATE_BYTES: u64 = 1 << 20;
+pub(crate) const STATE_BYTES: u64 = 4 << 20;
 
 /// A folder that this studio alone writes to.
 #[derive(Debug)]
@@ -36,6 +36,8 @@ pub struct Project {
     folder: PathBuf,
     /// Locked as long as it is open.
     _lock: File,
+    /// The page that writes: the one that asked last.
+    page: Mutex<Option<String>>,
 }
 
 impl Project {
@@ -75,6 +77,7 @@ impl Project {
         let project = Self {
             folder: folder.to_owned(),
             _lock: lock,
+            page: Mutex::default(),
         };
         project.tidy().map_err(failed)?;
         Ok(project)
@@ -113,11 +116,12 @@ impl Project {
         Ok(())
     }
 
-    /// What the page showed last, JSON.
+    /// What was shown last, JSON, for a page, which from then on is the one that writes.
     ///
     /// # Errors
     /// Where it cannot be read.
-    pub(crate) fn state(&self) -> Result<Vec<u8>, ApiError> {
+    pub(crate) fn state(&self, page: &str) -> Result<Vec<u8>, ApiError> {
+        *self.page.lock().unwrap_or_else(PoisonError::into_inner) = Some(page.to_owned());
         fs::read(self.folder.join(STATE)).map_err(|error| {
             let error = format!("{}: {error}", self.folder.join(STATE).display());
             ApiError::new(Status::Internal, error, "see that the folder can be read")
@@ -128,9 +132,10 @@ impl Project {
     /// nothing.
     ///
     /// # Errors
-    /// For what is no JSON object, and where it cannot be written.
+    /// For what is no JSON object, for a page that another one has followed, and where it cannot be written.
     pub(crate) fn save(
         &self,
+        page: &str,
         state: &[u8],
         made: impl Fn(&str) -> Option<Arc<Texture>>,
     ) -> Result<(), ApiError> {
@@ -139,6 +144,12 @@ impl Project {
             let error = "a project is a JSON object";
             ApiError::new(Status::BadRequest, error, "reload the page")
         })?;
+        let mut writer = self.page.lock().unwrap_or_else(PoisonError::into_inner);
+        if writer.get_or_insert_with(|| page.to_owned()) != page {
+            let error = "the project is open in another tab or window";
+            let help = "go on there, or reload this page to go on here with what is shown there";
+            return Err(ApiError::new(Status::Conflict, error, help));
+        }
         let new = ids(&shown)
             .into_iter()
             .filter(|id| !self.files(id)[1].exists());
@@ -213,16 +224,20 @@ mod tests {
         let own = folder.path().join("new/desk");
         let project = Project::open(&own).unwrap();
         assert!(Project::is_one(&own) && project.name() == "desk");
-        assert_eq!(project.state().unwrap(), b"{}");
+        assert_eq!(project.state("a").unwrap(), b"{}");
         let said = Project::open(&own).unwrap_err().to_string();
         assert!(said.contains("another studio"), "{said}");
         for state in [&b"[]"[..], b"", b"{"] {
-            assert!(project.save(state, |_| None).is_err());
+            assert!(project.save("a", state, |_| None).is_err());
         }
-        project.save(b"{\"at\":1}", |_| None).unwrap();
+        project.save("a", b"{\"at\":1}", |_| None).unwrap();
+        project.state("b").unwrap();
+        let late = project.save("a", b"{}", |_| None).unwrap_err();
+        assert_eq!(late.status, Status::Conflict, "the newest page writes");
         drop(project);
         let again = Project::open(&own).unwrap();
-        assert_eq!(again.state().unwrap(), b"{\"at\":1}");
+        again.save("a", b"{\"at\":2}", |_| None).unwrap();
+        assert_eq!(again.state("b").unwrap(), b"{\"at\":2}");
         let said = Project::open(folder.path()).unwrap_err().to_string();
         assert!(said.contains("1 other file"), "{said}");
     }
@@ -238,7 +253,7 @@ mod tests {
             texture.id()
         );
         let made = |id: &str| (id == texture.id()).then(|| Arc::clone(&texture));
-        project.save(state.as_bytes(), made).unwrap();
+        project.save("", state.as_bytes(), made).unwrap();
         let kept = project.texture(texture.id()).unwrap();
         assert_eq!(kept.shown(None), shown);
         assert!(shown.contains("--seed 3"), "{shown}");
@@ -252,12 +267,15 @@ mod tests {
         let whole = fs::read(&asset).unwrap();
         fs::write(&asset, &whole[..whole.len() - 1]).unwrap();
         assert!(project.texture(texture.id()).is_none(), "it is damaged");
-        project.save(b"{}", |_| None).unwrap();
+        project.save("", b"{}", |_| None).unwrap();
         drop(project);
         drop(Project::open(folder.path()).unwrap());
         assert!(!asset.exists() && !record.exists());
         let project = Project::open(folder.path()).unwrap();
         folder.close().unwrap();
-        assert!(project.save(state.as_bytes(), made).is_err(), "it is said");
+        assert!(
+            project.save("", state.as_bytes(), made).is_err(),
+            "it is said"
+        );
     }
 }

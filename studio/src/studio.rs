@@ -74,8 +74,8 @@ impl Studio {
     ///
     /// # Errors
     /// As [`Project::save`], and without a project.
-    pub(crate) fn save(&self, state: &[u8]) -> Result<(), ApiError> {
-        self.project()?.save(state, |id| self.recent.get(id))
+    pub(crate) fn save(&self, page: &str, state: &[u8]) -> Result<(), ApiError> {
+        self.project()?.save(page, state, |id| self.recent.get(id))
     }
 
     /// The project.

@@ -8,7 +8,8 @@ use crate::{
 };
 use asperity::{
     emit::{raise::raise, verify::VerifyError},
-    sources::latents::{AXES, Axis, remembered},
+    learned::Certainty,
+    sources::latents::{AXES, Axis, Memory, remembered},
     views::{
         inspect::{self, Document},
         preview::{self, SIZE, WIDTH_MM, not_encoded},
@@ -68,6 +69,7 @@ struct Shown<'a> {
     made: &'a Option<Value>,
     places: Map<String, Value>,
     editable: bool,
+    certainty: Option<Certainty>,
     file: String,
     command: Option<String>,
 }
@@ -201,6 +203,8 @@ impl Texture {
                 prompts.and_then(|loaded| loaded.scale.place(axis, &self.document.attributes));
             (axis.name().to_owned(), json!(place))
         };
+        let memory = self.memory();
+        let model = memory.as_ref().map(|memory| memory.model_crc32);
         inspect::json(&Shown {
             id: &self.id,
             name: &self.document.name,
@@ -216,17 +220,19 @@ impl Texture {
             compiled: &self.compiled,
             made: &self.made,
             places: AXES.into_iter().map(place).collect(),
-            editable: prompts.is_some_and(|loaded| self.is_editable(loaded)),
+            editable: model.is_some_and(|crc32| {
+                prompts.is_some_and(|it| it.compiler.model().has_latent_of(crc32))
+            }),
+            certainty: memory.and_then(|memory| memory.history.certainty),
             file: self.file(),
             command: self.recipe.as_ref().and_then(Recipe::command),
         })
     }
 
-    /// Returns true if it stores a latent of the loaded model.
-    fn is_editable(&self, loaded: &Loaded) -> bool {
-        let asset = Asset::parse(&self.asset).ok();
-        let memory = asset.and_then(|asset| remembered(&asset).ok().flatten());
-        memory.is_some_and(|memory| loaded.compiler.model().has_latent_of(memory.model_crc32))
+    /// What it remembers of how it was made, if it does.
+    fn memory(&self) -> Option<Memory> {
+        let asset = Asset::parse(&self.asset).ok()?;
+        remembered(&asset).ok().flatten()
     }
 
     /// The asset for the AudioWorklet.
@@ -243,6 +249,18 @@ impl Texture {
         computed.clone()
     }
 
+    /// Its appearance, as it is stored or else drawn.
+    ///
+    /// # Errors
+    /// Where it cannot be drawn.
+    pub(crate) fn picture(&self) -> Result<Arc<[u8]>, ApiError> {
+        let asset = self.parsed()?;
+        match stored_picture(&asset) {
+            Some(png) => Ok(png.into()),
+            None => Ok(self.pictures()?.color),
+        }
+    }
+
     /// Its pictures.
     ///
     /// # Errors
@@ -256,8 +274,7 @@ impl Texture {
     }
 
     fn draw(&self, asset: &Asset<'_>) -> Result<Pictures, Fault> {
-        let stored = asset.preview_png();
-        let stored = stored.filter(|png| preview::stored(png).is_ok());
+        let stored = stored_picture(asset);
         let sizes = preview::SIZES;
         let size_px = self.pixels.clamp(*sizes.start(), *sizes.end());
         let picture = preview::draw(&raise(asset), size_px)?;
@@ -286,6 +303,13 @@ impl Texture {
             ..texture
         }
     }
+}
+
+/// The picture that an asset holds, if it can be shown.
+fn stored_picture<'a>(asset: &Asset<'a>) -> Option<&'a [u8]> {
+    asset
+        .preview_png()
+        .filter(|png| preview::stored(png).is_ok())
 }
 
 /// Returns the identifier of the bytes: a collision-resistant hash.

@@ -1,9 +1,8 @@
-// The panel “Take it with you”: every file of the texture, and a library of the session.
+// The panel “Take it with you”: every file of the texture.
 
 import { announce, busily, element, find, notify, save, withdraw } from "../dom.js";
 import { Refusal } from "../server.js";
 import { texts } from "../texts.js";
-import { Pack } from "./pack.js";
 
 const COLUMNS = [["own", "see", "hear"], ["tools", "code"]];
 
@@ -38,15 +37,14 @@ const fileName = ({ file }, suffix) => file.replace(/\.asp$/, "") + suffix;
 export class Out {
   #server;
 
-  constructor({ server, state, loader }) {
+  constructor({ server, state }) {
     this.#server = server;
     this.title = element("span", { class: "file" });
     this.kinds = element("div", { class: "kinds" });
-    const pack = new Pack({ server, loader });
     find("take").append(
       element("div", { class: "row" }, element("h2", { id: "take-title" }, texts.files.take), this.title,
         element("button", { type: "button", class: "quiet", popovertarget: "take", popovertargetaction: "hide" }, texts.files.close)),
-      this.kinds, pack.element);
+      this.kinds);
     state.on(["texture", "about"], ({ texture, about }) => this.#show(texture, about));
   }
 

@@ -6,6 +6,8 @@ import { ATTRIBUTES } from "./attributes.js";
 import { Span } from "./span.js";
 
 const ORDERS = ["library", "name", ...ATTRIBUTES.flatMap(({ name }) => [`${name} falling`, `${name} rising`])];
+/** What a choice of certainty lets through, by the levels of the columns. */
+const CERTAINTIES = { any: null, known: ["known"], close: ["close"], guess: ["guess", "no_contact"] };
 /** Typing goes on before the list changes, ms. */
 const TYPING_MS = 120;
 
@@ -14,6 +16,8 @@ export class Filters {
   #changed;
   #spans;
   #count;
+  /** The attributes of what others are to be like. */
+  #like = null;
 
   constructor(changed) {
     this.#changed = () => {
@@ -26,11 +30,16 @@ export class Filters {
       onkeydown: (event) => this.#key(event) });
     this.order = element("select", { id: "gallery-order", "aria-label": texts.gallery.order, onchange: this.#changed },
       ...ORDERS.map((order) => element("option", { value: order }, texts.gallery.orders[order])));
+    this.alike = element("option", { value: "like", hidden: true });
+    this.order.append(this.alike);
+    this.certainty = element("select", { id: "gallery-certainty", onchange: this.#changed },
+      ...Object.keys(CERTAINTIES).map((level) => element("option", { value: level }, texts.gallery.certainties[level])));
+    this.certain = element("label", { class: "certain" }, texts.gallery.certainty, " ", this.certainty);
     this.#spans = ATTRIBUTES.map((attribute) => new Span(attribute, this.#changed));
     this.#count = element("span", { class: "count" });
     this.details = element("details", { class: "ranges" },
       element("summary", {}, texts.gallery.ranges, " ", this.#count),
-      ...this.#spans.map((span) => span.element),
+      this.certain, ...this.#spans.map((span) => span.element),
       element("button", { type: "button", class: "quiet", onclick: () => this.reset() }, texts.gallery.reset));
     this.element = element("div", { class: "filters" }, this.search, this.order, this.details);
   }
@@ -38,6 +47,8 @@ export class Filters {
   /** Takes the ends of a library; words and order stay. */
   begin(library) {
     this.#spans.forEach((span) => span.begin(library.ends[span.attribute.name]));
+    this.certain.hidden = !library.certainty?.some((level) => level !== null);
+    if (this.certain.hidden) this.certainty.value = "any";
     this.#tell();
   }
 
@@ -45,7 +56,17 @@ export class Filters {
   get wanted() {
     const [by, way] = this.order.value.split(" ");
     const ranges = this.#spans.filter(({ range }) => range).map(({ attribute, range }) => [attribute.name, range]);
-    return { words: this.search.value, order: { by, falling: way === "falling" }, ranges: Object.fromEntries(ranges) };
+    return { words: this.search.value, order: { by, falling: way === "falling", like: by === "like" ? this.#like : undefined },
+      certainties: CERTAINTIES[this.certainty.value], ranges: Object.fromEntries(ranges) };
+  }
+
+  /** Orders by how much is like a texture, until another order is chosen. */
+  like({ name, inspect }) {
+    this.#like = inspect.attributes;
+    this.alike.textContent = texts.gallery.alike(name);
+    this.alike.hidden = false;
+    this.order.value = "like";
+    this.#changed();
   }
 
   /** The attribute that orders, or `undefined`. */
@@ -55,12 +76,14 @@ export class Filters {
 
   reset() {
     this.search.value = "";
+    this.certainty.value = "any";
     for (const span of this.#spans) span.reset();
     this.#changed();
   }
 
   #tell() {
-    const count = Object.keys(this.wanted.ranges).length;
+    const { ranges, certainties } = this.wanted;
+    const count = Object.keys(ranges).length + (certainties ? 1 : 0);
     this.#count.textContent = count ? texts.gallery.ranges_on(count) : "";
   }
 

@@ -1,9 +1,11 @@
 // The gallery: which library is shown, how, and what is picked from it.
 
 import { element, find, notify, withdraw } from "../dom.js";
+import { OWN } from "../library/own.js";
 import { Refusal } from "../server.js";
 import { texts } from "../texts.js";
 import { valueText } from "./attributes.js";
+import { Chosen } from "./chosen.js";
 import { Compare } from "./compare.js";
 import { Filters } from "./filters.js";
 import { Grid } from "./grid.js";
@@ -51,7 +53,8 @@ class Gallery {
   #library = null;
   /** Where the textures that were picked come from, by their names on the server. */
   #origins = new Map();
-  #current = null;
+  /** The origins of what is kept. */
+  #kept = new Set();
   #timer = null;
   #views;
   #mode = "pictures";
@@ -60,15 +63,17 @@ class Gallery {
 
   constructor(parts) {
     this.#parts = parts;
-    const { server, state } = parts;
+    const { server, state, own, flush } = parts;
     const pick = (place) => this.#pick(this.#library, place);
-    this.grid = new Grid({ address: (library, place) => server.thumbnail(library, place), pick,
-      reached: (place) => this.#reached(place) });
+    const address = (library, place) => server.thumbnail(library, place);
+    this.chosen = new Chosen({ server, own, flush, from: (library, place) => library.origin(place) }, () => this.grid?.mark());
+    this.grid = new Grid({ address, pick, reached: (place) => this.#reached(place), chosen: this.chosen,
+      isKept: (place) => this.#library !== null && this.#library.id !== OWN && this.#kept.has(this.#library.origin(place)) });
     this.plot = element("div", { class: "plots scatter" });
     this.compare = new Compare({ server, pick: (library, name) => this.#pick(library, library.placeOf(name)) });
     this.filters = new Filters(() => this.#list());
     this.#build();
-    this.scatter = mountScatter(this.plot, pick);
+    this.scatter = mountScatter(this.plot, pick, address);
     this.#views = startViews(() => this.#list());
     let begun = false;
     state.on(["about"], ({ about }) => {
@@ -77,6 +82,35 @@ class Gallery {
       if (about.library?.id) this.add(about.library);
     });
     state.on(["texture"], ({ texture }) => this.#mark(texture));
+    own.on("change", () => this.#follow());
+  }
+
+  /** Where a texture was picked from a library, as a project keeps it. */
+  from({ id }) {
+    const origin = this.#origins.get(id);
+    return origin?.library.origin(origin.place);
+  }
+
+  /** Shows the library of one's own. */
+  browse() {
+    this.#show(this.#libraries.find(({ id }) => id === OWN));
+    this.#views.show("gallery");
+  }
+
+  /** Follows what is kept. */
+  #follow() {
+    const { own } = this.#parts;
+    this.#kept = own.origins;
+    const others = this.#libraries.filter(({ id }) => id !== OWN);
+    const library = own.items.length > 0 ? new Library(own.columns) : null;
+    this.#libraries = library ? [...others, library] : others;
+    this.#offer();
+    if (this.#library && this.#library.id !== OWN) return this.grid.mark();
+    const shown = library ?? others[0];
+    this.invitation.hidden = Boolean(shown);
+    this.body.hidden = !shown;
+    if (shown) this.#show(shown);
+    else this.#library = null;
   }
 
   /** Shows a library, as the server describes it, and keeps it with those that were there. */
@@ -87,6 +121,7 @@ class Gallery {
       if (!known) this.#libraries.push(library);
       withdraw("gallery");
       this.#offer();
+      this.#offerModes();
       this.#show(library);
       this.#views.show("gallery");
     } catch (error) {
@@ -102,13 +137,14 @@ class Gallery {
     this.name = element("span", { class: "library" });
     this.count = element("p", { class: "small", role: "status" });
     this.modes = element("div", { class: "segments modes", role: "group", "aria-label": texts.gallery.show });
+    this.like = element("button", { type: "button", class: "quiet", id: "like", onclick: () => this.#like() }, texts.gallery.like);
     this.follow = element("input", { type: "checkbox", id: "gallery-follow", checked: true });
     this.following = element("label", { class: "small follow" }, this.follow, " ", texts.gallery.follow);
     this.none = element("p", { class: "none" }, texts.gallery.nothing, " ",
       element("button", { type: "button", class: "quiet", onclick: () => this.filters.reset() }, texts.gallery.reset));
     this.body = element("div", { class: "shelf", hidden: true },
       element("div", { class: "tools" }, this.filters.element,
-        element("div", { class: "row" }, this.modes, this.count)),
+        element("div", { class: "row" }, this.modes, this.count, this.like, this.chosen.several), this.chosen.element),
       this.grid.element, this.plot, this.compare.element, this.none,
       element("div", { class: "row" }, this.following, handButton()));
     this.invitation = element("div", { class: "start" }, element("p", {}, texts.gallery.invitation),
@@ -126,7 +162,13 @@ class Gallery {
     this.name.hidden = several;
     this.choice.replaceChildren(...this.#libraries.map(({ id, name, count }) =>
       element("option", { value: id }, texts.gallery.named(name, count))));
-    this.compare.offer(this.#libraries);
+    if (this.#library) this.choice.value = this.#library.id;
+  }
+
+  #offerModes() {
+    const files = this.#libraries.filter(({ id }) => id !== OWN);
+    const several = files.length > 1;
+    this.compare.offer(files);
     const modes = ["pictures", "scatter", ...(several ? ["compare"] : [])];
     this.modes.style.gridTemplateColumns = `repeat(${modes.length}, auto)`;
     this.modes.replaceChildren(...modes.map((mode) => element("label", {},
@@ -140,13 +182,22 @@ class Gallery {
     if (mode === "compare") this.compare.open();
   }
 
+  /** Orders by how much is like what is on the surface. */
+  #like() {
+    const texture = this.#parts.state.get("texture");
+    if (texture) this.filters.like(texture);
+  }
+
   #show(library) {
+    const isSame = library.id === this.#library?.id && JSON.stringify(library.ends) === JSON.stringify(this.#library.ends);
     this.#library = library;
+    this.#listed = "";
+    this.chosen.begin(library);
     this.choice.value = library.id;
     this.name.textContent = texts.gallery.named(library.name, library.count);
     this.invitation.hidden = true;
     this.body.hidden = false;
-    this.filters.begin(library);
+    if (!isSame) this.filters.begin(library);
     this.#list();
     this.#mark(this.#parts.state.get("texture"), true);
   }
@@ -182,8 +233,8 @@ class Gallery {
     clearTimeout(this.#timer);
     const { server, loader } = this.#parts;
     loader.take(async (signal) => {
-      const texture = await server.pick(library, place, signal);
-      this.#origins.set(texture.id, { library, place });
+      const texture = await (library.id === OWN ? server.shown({ id: library.textures[place] }, signal) : server.pick(library, place, signal));
+      if (library.id !== OWN) this.#origins.set(texture.id, { library, place });
       return texture;
     }, { kind: "pick", name: library.names[place], walks });
   }
@@ -191,7 +242,8 @@ class Gallery {
   /** Marks the texture on the surface in the library that is shown. */
   #mark(texture, scroll = false) {
     const origin = texture && this.#origins.get(texture.id);
-    const place = origin?.library === this.#library ? (origin?.place ?? null) : null;
+    const own = this.#library?.id === OWN && texture ? this.#library.textures.indexOf(texture.id) : -1;
+    const place = own >= 0 ? own : origin?.library === this.#library ? (origin?.place ?? null) : null;
     this.grid.choose(place, scroll);
     this.scatter.choose(place);
   }

@@ -23,17 +23,20 @@ export class Grid {
   #note = null;
   /** Index into the places, −1 for none. */
   #active = -1;
-  #chosen = null;
+  #shown = null;
   #layout = { columns: 1, width: 100, height: 100, gap: 8 };
   #frame = 0;
   /** Where the view rests; a list that is hidden forgets it. */
   #top = 0;
   #hidden = true;
 
-  /** `address(library, place)` promises that of a picture; `pick(place)` takes a texture; `reached(place)` hears of the arrow keys. */
-  constructor({ address, pick, reached }) {
-    Object.assign(this, { address, pick, reached });
-    this.element = element("div", { class: "cells", role: "listbox", tabindex: "0", "aria-label": texts.gallery.pictures },
+  /**
+   * `address(library, place)` promises that of a picture; `pick(place)` takes a texture; `reached(place)` hears of the
+   * arrow keys; `chosen` are several at once, and `isKept(place)` tells those that have a star.
+   */
+  constructor({ address, pick, reached, chosen, isKept }) {
+    Object.assign(this, { address, pick, reached, chosen, isKept });
+    this.element = element("div", { class: "cells", role: "listbox", tabindex: "0", "aria-multiselectable": "true", "aria-label": texts.gallery.pictures },
       this.#sizer);
     this.element.addEventListener("scroll", () => {
       if (this.element.clientWidth > 0) this.#top = this.element.scrollTop;
@@ -41,33 +44,47 @@ export class Grid {
     });
     this.element.addEventListener("keydown", (event) => this.#key(event));
     this.element.addEventListener("focus", () => this.#active < 0 && this.#activate(this.#first()));
-    this.#sizer.addEventListener("click", ({ target }) => {
-      const cell = target.closest(".cell");
+    this.#sizer.addEventListener("click", (event) => {
+      const cell = event.target.closest(".cell");
       if (!cell) return;
       this.#activate(Number(cell.dataset.index));
-      this.pick(Number(cell.dataset.place));
+      this.#take(Number(cell.dataset.place), event);
     });
     new ResizeObserver(() => this.#resize()).observe(this.element);
   }
 
   /** Shows textures of a library; `note(place)`, or nothing, is what stands below a name. */
   show(library, places, note) {
-    const kept = library === this.#library ? this.#places[this.#active] : undefined;
+    const kept = library.id === this.#library?.id ? this.#places[this.#active] : undefined;
+    const top = library !== this.#library && library.id === this.#library?.id ? this.#top : 0;
     this.#clear();
     this.#library = library;
     this.#places = places;
     this.#note = note;
     this.#active = kept === undefined ? -1 : places.indexOf(kept);
-    this.#top = this.element.scrollTop = 0;
+    this.#top = top;
     this.#resize();
+    this.element.scrollTop = top;
+    this.#draw();
   }
 
   /** Marks the texture that is on the surface, and brings it into view if asked to. */
   choose(place, scroll = false) {
-    this.#chosen = place;
-    for (const cell of this.#cells.values()) this.#mark(cell);
+    this.#shown = place;
+    this.mark();
     const index = place === null ? -1 : this.#places.indexOf(place);
     if (scroll && index >= 0) this.#activate(index);
+  }
+
+  /** What is chosen or kept has changed. */
+  mark() {
+    for (const cell of this.#cells.values()) this.#mark(cell);
+  }
+
+  /** Picks a texture, or chooses it as one of several. */
+  #take(place, { ctrlKey, metaKey, shiftKey }) {
+    if (ctrlKey || metaKey || shiftKey || this.chosen.isOn) this.chosen.toggle(place, this.#places, shiftKey);
+    else this.pick(place);
   }
 
   #clear() {
@@ -75,7 +92,7 @@ export class Grid {
   }
 
   #first() {
-    const chosen = this.#chosen === null ? -1 : this.#places.indexOf(this.#chosen);
+    const chosen = this.#shown === null ? -1 : this.#places.indexOf(this.#shown);
     if (chosen >= 0) return chosen;
     const { columns, height } = this.#layout;
     return Math.min(Math.ceil(this.element.scrollTop / height) * columns, this.#places.length - 1);
@@ -150,7 +167,10 @@ export class Grid {
   }
 
   #mark(cell) {
-    cell.setAttribute("aria-selected", String(Number(cell.dataset.place) === this.#chosen));
+    const place = Number(cell.dataset.place);
+    cell.setAttribute("aria-selected", String(place === this.#shown));
+    cell.setAttribute("aria-checked", String(this.chosen.has(place)));
+    cell.classList.toggle("kept", this.isKept(place));
     cell.classList.toggle("active", Number(cell.dataset.index) === this.#active);
   }
 
@@ -175,11 +195,18 @@ export class Grid {
     if (top < scrollTop) this.element.scrollTop = top;
     else if (top + height - gap > scrollTop + clientHeight) this.element.scrollTop = top + height - gap - clientHeight;
     this.#draw();
-    for (const cell of this.#cells.values()) this.#mark(cell);
+    this.mark();
   }
 
   #key(event) {
-    if (event.ctrlKey || event.metaKey || event.altKey || this.#places.length === 0) return;
+    if (event.altKey || this.#places.length === 0) return;
+    const several = event.ctrlKey || event.metaKey;
+    if (several && event.key === "a") {
+      event.preventDefault();
+      return this.chosen.all(this.#places);
+    }
+    if (event.key === "Escape") return this.chosen.clear();
+    if (several && event.key !== " ") return;
     const { columns, height } = this.#layout;
     const last = this.#places.length - 1;
     const page = Math.max(Math.floor(this.element.clientHeight / height), 1) * columns;
@@ -188,7 +215,7 @@ export class Grid {
       PageUp: Math.max(at - page, at % columns), PageDown: Math.min(at + page, last), Home: 0, End: last }[event.key];
     if (event.key === "Enter" || event.key === " ") {
       event.preventDefault();
-      if (at >= 0) this.pick(this.#places[at]);
+      if (at >= 0) this.#take(this.#places[at], event);
     } else if (to !== undefined) {
       event.preventDefault();
       if (to < 0 || to > last || to === at) return;

@@ -10,6 +10,9 @@ import { ATTRIBUTES, valueText } from "./attributes.js";
 /** How near the pointer must be, px. */
 const NEAR_PX = 14;
 const POINT_PX = 3;
+/** Few points show their pictures, of this size. */
+const MOST_PICTURES = 60;
+const PICTURE_PX = 28;
 const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 /** An axis with room around its values. */
@@ -29,10 +32,12 @@ class Points extends Figure {
   #placed = null;
   #chosen = null;
   #at = null;
+  /** By place, as they arrive. */
+  #pictures = new Map();
 
-  constructor(stage, pick) {
+  constructor(stage, pick, address) {
     super(stage, "scatter", texts.gallery.scatter);
-    this.pick = pick;
+    Object.assign(this, { pick, address });
     this.attributes = [ATTRIBUTES[0], ATTRIBUTES[2]];
     this.canvas.setAttribute("role", "application");
     this.canvas.addEventListener("pointermove", (event) => this.#point(event));
@@ -47,6 +52,7 @@ class Points extends Figure {
   }
 
   show(library, places) {
+    if (library !== this.#library) this.#pictures.clear();
     this.#library = library;
     this.#places = places;
     this.#at = null;
@@ -107,9 +113,32 @@ class Points extends Figure {
       dots(Array.from({ length: this.#library.count }, (_, place) => place).filter((place) => !shown.has(place)),
         this.stage.palette.grid, 1);
     }
+    if (this.#places.length <= MOST_PICTURES) {
+      for (const place of this.#places) this.#picture(on, place, of(place));
+      return { box, of };
+    }
     // Many points show where they are dense.
     dots(this.#places, this.stage.palette.accent, this.#places.length > 2000 ? 0.5 : 0.85);
     return { box, of };
+  }
+
+  /** A texture's picture at its point, as soon as it is there. */
+  #picture(on, place, [left, top]) {
+    if (Number.isNaN(left + top)) return;
+    if (!this.#pictures.has(place)) {
+      const image = new Image();
+      this.#pictures.set(place, image);
+      image.addEventListener("load", () => {
+        if (image.src.startsWith("blob:")) URL.revokeObjectURL(image.src);
+        this.renew();
+      });
+      this.address(this.#library, place).then((found) => (image.src = found), () => {});
+    }
+    const image = this.#pictures.get(place);
+    const half = PICTURE_PX / 2;
+    on.fillStyle = this.stage.palette.accent;
+    if (image.complete && image.naturalWidth > 0) on.drawImage(image, left - half, top - half, PICTURE_PX, PICTURE_PX);
+    else on.fillRect(left - POINT_PX / 2, top - POINT_PX / 2, POINT_PX, POINT_PX);
   }
 
   #label(ctx, place) {
@@ -182,9 +211,9 @@ class Points extends Figure {
 }
 
 /** The figure with the choice of its axes, in an element of the document, whose colours it takes: { show, choose }. */
-export function mountScatter(root, pick) {
+export function mountScatter(root, pick, address) {
   const stage = new Stage(root, () => false);
-  const points = new Points(stage, pick);
+  const points = new Points(stage, pick, address);
   const choice = (which, label) => element("label", {}, label, " ", element("select", {
     onchange: ({ target }) => {
       points.attributes[which] = ATTRIBUTES.find(({ name }) => name === target.value);

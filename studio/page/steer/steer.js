@@ -1,6 +1,6 @@
 // Steering: sliders, words, seed, mixtures, undo, and comparison.
 
-import { announce, element, find } from "../dom.js";
+import { announce, element, find, writes } from "../dom.js";
 import { texts } from "../texts.js";
 import { Compare } from "./compare.js";
 import { Feel, stepped } from "./feel.js";
@@ -63,11 +63,6 @@ function startBlind({ state }, compare) {
 }
 
 // Keys that work wherever no text is written: undo, redo, and the slots.
-const NO_TEXT = ["range", "checkbox", "radio", "button", "submit", "file", "color"];
-
-const writes = ({ target }) => target.isContentEditable || target.matches?.("textarea, select")
-  || (target.matches?.("input") && !NO_TEXT.includes(target.type));
-
 /** `slot(n)` takes 0 to 3, while `slotKeys()` holds. */
 function followShortcuts({ undo, redo, slot, slotKeys }) {
   addEventListener("keydown", (event) => {

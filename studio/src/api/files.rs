@@ -1,9 +1,6 @@
 //! Files of textures, files that are opened, and libraries that are packed.
 
-use super::{
-    nothing_here,
-    requests::{JSON_BYTES, parsed},
-};
+use super::{nothing_here, requests::parsed};
 use crate::{
     about::Library,
     download::Download,
@@ -20,6 +17,9 @@ use serde_json::json;
 const FILE_BYTES: u64 = 64 << 20;
 /// Bytes of the name of a file, as systems have them.
 const NAME_BYTES: usize = 255;
+
+/// Bytes of the request for a library: thousands of names.
+const PACK_BYTES: u64 = 1 << 20;
 
 /// `POST api/pack`.
 #[derive(Deserialize)]
@@ -74,7 +74,7 @@ pub(super) fn download(studio: &Studio, file: &str) -> Result<Answer, ApiError> 
 
 /// Packs a library.
 pub(super) fn pack(studio: &Studio, body: &mut Body<'_, '_>) -> Result<Answer, ApiError> {
-    let bytes = body.read(JSON_BYTES)?;
+    let bytes = body.read(PACK_BYTES)?;
     let expected = "{\"textures\": [{\"texture\": ID, \"name\": TEXT}, …]}";
     let Pack { textures } = parsed(&bytes, expected)?;
     let mut named = Vec::with_capacity(textures.len());
@@ -87,7 +87,7 @@ pub(super) fn pack(studio: &Studio, body: &mut Body<'_, '_>) -> Result<Answer, A
 }
 
 /// The value of a key in the query, still encoded.
-fn queried<'a>(target: &'a str, key: &str) -> Option<&'a str> {
+pub(super) fn queried<'a>(target: &'a str, key: &str) -> Option<&'a str> {
     let (_, query) = target.split_once('?')?;
     let mut pairs = query.split('&').filter_map(|pair| pair.split_once('='));
     pairs.find_map(|(found, value)| (found == key).then_some(value))

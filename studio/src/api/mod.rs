@@ -48,9 +48,13 @@ pub(crate) fn answer(
     match path {
         "api/about.json" if reads => Ok(Answer::json(studio.about())),
         "api/about.json" => Ok(Answer::only("GET, HEAD")),
-        "api/project.json" if reads => Ok(Answer::json(studio.project()?.state()?)),
+        "api/project.json" if reads => {
+            let page = files::queried(&head.target, "page").unwrap_or_default();
+            Ok(Answer::json(studio.project()?.state(page)?))
+        }
         "api/project.json" if posts => {
-            studio.save(&body.read(STATE_BYTES)?)?;
+            let page = files::queried(&head.target, "page").unwrap_or_default();
+            studio.save(page, &body.read(STATE_BYTES)?)?;
             Ok(Answer::json("{}"))
         }
         "api/project.json" => Ok(Answer::only("GET, HEAD, POST")),

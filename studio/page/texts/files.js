@@ -1,0 +1,53 @@
+// Texts of files in and out.
+
+import { number } from "./number.js";
+
+export const files = {
+  open: "Open a file …",
+  drop: "Drop to open",
+  drop_kinds: "Assets, libraries, HaTT models (.xml), JSON models, effects (.haptic, .ahap, .hjif), pictures of heights or normals",
+  map: {
+    title: (name) => `What ${name} does not say`,
+    about: "Heights are grey, white high; normals are told by their colours. A photograph says nothing of touch.",
+    width_mm: "Width of the surface that it shows, mm",
+    depth_mm: "Height of white above black, mm; negative where white is low",
+    like: "Material, in words: hardness, taps and friction",
+    import: "Import",
+    cancel: "Cancel",
+  },
+  opening: (name, at, count) => (count === 1 ? `Opening ${name} …` : `Opening ${name} (${at} of ${count}) …`),
+  opened: (name) => `Opened ${name}.`,
+  not_opened: (name, why) => `${name} was not opened. ${why}`,
+  folder: (name) => `${name} is a folder.`,
+  folder_help: "Drop the files in it.",
+  large: (name, mib) => `${name} has ${number(mib, 0)} MiB; 64 MiB can be opened here.`,
+  large_help: "Start the studio with it, as “asperity studio FILE”, or divide it with “asperity split”.",
+  unread: (name) => `${name} could not be read.`,
+  unread_help: "Check that the file is still there and that you may read it.",
+
+  take: "Take it with you",
+  close: "Close",
+  saved: (name) => `Saved ${name}.`,
+  not_saved: (name, why) => `${name} could not be saved: ${why}`,
+  groups: { own: "Asperity", see: "To see", hear: "To hear", tools: "For other tools", code: "For firmware" },
+  kinds: {
+    asp: ["Asset", "the texture itself, for runtimes and for this page"],
+    json: ["Description", "every number in it, as text"],
+    png: ["Picture", "its colours seen from above"],
+    "normal.png": ["Normal map", "the slope of the relief, for lighting in 3D"],
+    "height.png": ["Height map", "the relief in grey levels, for displacement"],
+    "plot.png": ["Plot sheet", "poles, spectra, taps and friction at a glance"],
+    "listen.wav": ["Sound", "six strokes and three taps, to listen to"],
+    "export.wav": ["Acceleration, WAV", "a stroke and three taps, to drive an actuator"],
+    "export.csv": ["Acceleration, table", "the same, sample by sample in m/s²"],
+    "export.hjif": ["MPEG haptics, HJIF", "stroke and taps, as JSON"],
+    "export.hmpg": ["MPEG haptics, binary", "the same in few bytes"],
+    "export.ahap": ["Apple AHAP", "for Core Haptics on iPhones"],
+    "export.haptic": ["NiceVibrations", "for Unity, on Android and iOS"],
+    "export.gltf": ["glTF", "a 3D material with MPEG_haptic_material"],
+    "export.c": ["C array", "to compile into flash; NAME.h belongs to it"],
+    "export.h": ["C header", "declares that array"],
+    "export.rs": ["Rust array", "the same for no_std programs"],
+  },
+  other: (format) => [format, "as “asperity export” writes it"],
+};
