@@ -8,7 +8,7 @@ import { join } from "node:path";
 import { downloaded, run } from "./aid.mjs";
 import { assert, chromium } from "./chromium.mjs";
 import { begun } from "./studio.mjs";
-import { after, written } from "./steering.mjs";
+import { after, bytesOf, written } from "./steering.mjs";
 
 const [executablePath] = process.argv.slice(2);
 const [asperity, work] = [process.env.ASPERITY, mkdtempSync(join(tmpdir(), "designer-"))];
@@ -18,7 +18,7 @@ const BEGINNINGS = 3;
 const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });
 const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, acceptDownloads: true });
 const page = await context.newPage();
-let studio;
+let [studio, elsewhere] = [];
 let clicks = 0;
 let project;
 const click = (selector, options) => {
@@ -35,7 +35,6 @@ try {
     await page.goto(studio.address);
     const opened = Date.now();
     clicks = 0;
-    await page.waitForSelector(".loaded");
     await click("#stage");
     await page.waitForFunction(() => Number(document.getElementById("meter").getAttribute("aria-valuenow")) > -50);
     seconds = (Date.now() - opened) / 1000;
@@ -70,6 +69,20 @@ try {
   const again = await downloaded(page, () => page.click("#pack"));
   assert(again.bytes.equals(bytes), "to the byte");
 
+  // Its last texture goes to somebody else as a link.
+  await page.click("#take-button");
+  const link = await page.textContent(".link-row code");
+  await page.keyboard.press("Escape");
+  elsewhere = await begun(asperity, ["--project", join(work, "elsewhere")]);
+  const theirs = await context.newPage();
+  await theirs.goto(elsewhere.address + link);
+  const here = await after(theirs, async () => {}, ({ told }) => told.includes("soft velvet"));
+  assert((await bytesOf(theirs, here.id)).equals(readFileSync(join(work, "2.asp"))) && here.command === commands[2], `a link of ${link.length} letters makes the same bytes elsewhere`);
+  assert(here.told.includes("slippery") && (await theirs.evaluate(() => location.hash)) === "", "as an edit that goes on, and the address is the page's again");
+  await theirs.evaluate((text) => dispatchEvent(Object.assign(new Event("paste"), { clipboardData: { getData: () => text } })), "#recipe=bm90aGluZw");
+  await theirs.waitForSelector("[data-key=link]");
+  assert((await theirs.textContent("[data-key=link]")).includes("holds no recipe"), "one that was cut short is refused");
+
   // A second tab goes on, and the first one says so.
   const other = await context.newPage();
   await other.goto(studio.address);
@@ -85,6 +98,6 @@ try {
   assert(true, "and nothing of it is lost");
 } finally {
   await browser.close();
-  await studio?.kill();
+  for (const each of [studio, elsewhere]) await each?.kill();
   rmSync(work, { recursive: true, force: true });
 }

@@ -11,7 +11,7 @@ import { extname, join, normalize, resolve } from "node:path";
 import { clean, downloaded, drop, run, shown } from "./aid.mjs";
 import { assert, axe, chromium, count } from "./chromium.mjs";
 import { files } from "./files.mjs";
-import { after, written } from "./steering.mjs";
+import { after, shown as now, written } from "./steering.mjs";
 import { firstSession, sameAsCommand } from "./ticks.mjs";
 import { Visit } from "./visit.mjs";
 
@@ -61,6 +61,10 @@ async function filesAlone(visit, about) {
   for (const id of ["prompt", "open", "feel", "views", "history"]) {
     assert(!(await page.isVisible(`#${id}`)), `without a compiler there is no ${id}`);
   }
+  const other = await Visit.begin(browser, page.url());
+  await shown(other.page, "ice");
+  assert(page.url().endsWith("#texture=ice") && (await other.page.getAttribute(".cell:has-text(\"ice\")", "aria-selected")) === "true", "its address is a link to the texture");
+  await other.end();
   await clean(page, assert, "exported", "light");
   await clean(page, assert, "exported again", "dark");
 
@@ -118,6 +122,11 @@ async function compiler(visit) {
   console.log(`  a prompt took ${Date.now() - compiled} ms`);
   await same(await after(page, async () => {}, () => true), "prompt");
   for (const scheme of ["light", "dark"]) await clean(page, assert, "offline", scheme);
+  const linked = await Visit.begin(browser, page.url());
+  await shown(linked.page, "rough abrasive sheet with gritty particles");
+  const [here, there] = [await now(page), await now(linked.page)];
+  assert(page.url().includes("#recipe=") && here.id === there.id && here.command === there.command, "its address holds the recipe, which makes the same bytes again");
+  await linked.end();
 
   const other = await Visit.begin(browser, address);
   await other.page.evaluate(axe);

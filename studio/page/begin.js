@@ -4,13 +4,14 @@ import { texts } from "./texts.js";
 
 const reduced = matchMedia("(prefers-reduced-motion: reduce)");
 
-/** Shows what the project had last, the first texture of the studio's library, or the first example. */
-function showFirst({ state, server, loader, restore }) {
+/** Shows what the address links to, what the project had last, the first texture of the studio's library, or the first example. */
+function showFirst({ state, server, loader, restore, links }) {
   let begun = false;
   state.on(["about"], async ({ about, texture, busy }) => {
     if (!about || texture || busy || begun) return;
     begun = true;
-    if (await restore()) return;
+    const isRestored = await restore();
+    if (links.open(location.hash) || isRestored) return;
     const { library, prompts, opens } = about;
     if (library?.id) {
       return loader.take(async (signal) => server.pick(await server.library(library.id, signal), 0, signal), { kind: "pick", name: library.name });
@@ -20,9 +21,9 @@ function showFirst({ state, server, loader, restore }) {
   });
 }
 
-/** `move()` starts the hand that moves by itself, `restore()` brings back a project, if there is one. */
-export function startBeginning({ state, server, loader, sound, move, restore }) {
-  showFirst({ state, server, loader, restore });
+/** `move()` starts the hand that moves by itself, `restore()` brings back a project, if there is one, `links` what is linked to. */
+export function startBeginning({ state, server, loader, sound, move, restore, links }) {
+  showFirst({ state, server, loader, restore, links });
   const prepared = sound.prepare();
   if (reduced.matches) return;
   let begun = false;

@@ -63,6 +63,21 @@ export async function busily(button, run) {
   }
 }
 
+/** Copies a text, or selects `shown`, which holds it, where the browser does not let it; the button says which for a while. */
+export async function copy(button, text, shown) {
+  const label = button.textContent;
+  let said = texts.copy.copied;
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch {
+    getSelection().selectAllChildren(shown);
+    said = texts.copy.selected;
+  }
+  button.textContent = said;
+  announce(said);
+  setTimeout(() => (button.textContent = label), 2000);
+}
+
 /** A file for the person: a Blob under a name, without leaving the page. */
 export function save(name, blob) {
   const link = document.createElement("a");

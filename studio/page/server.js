@@ -69,6 +69,11 @@ export class Server {
     return this.#post("api/encode", { texture: texture.id }, signal);
   }
 
+  /** What a recipe's link leads to: { texture, base, steps, same }. */
+  link(link, signal) {
+    return this.#post("api/link", { link }, signal);
+  }
+
   /** A dropped file, with what is stated of a picture: { texture }, or { library } for one with several textures. */
   open(file, stated = {}, signal) {
     const options = { method: "POST", headers: { "Content-Type": "application/octet-stream" }, body: file, signal };

@@ -11,6 +11,7 @@ import { startGallery } from "./gallery/gallery.js";
 import { startHandPanel } from "./hand-panel.js";
 import { OwnLibrary } from "./library/own.js";
 import { startOwnLibrary } from "./library/panel.js";
+import { Links } from "./links.js";
 import { Loader } from "./loader.js";
 import { mountPlots } from "./plots/plots.js";
 import { startProject } from "./project.js";
@@ -80,8 +81,10 @@ const { session, compare } = startSteering({ server, state, loader, sound });
 const own = new OwnLibrary();
 const { restore, flush } = startProject({ server, state, session, compare, own });
 const gallery = startGallery({ server, state, loader, own, flush });
-startOwnLibrary({ server, state, loader, own, from: (texture) => gallery.from(texture), browse: () => gallery.browse() });
-new Out({ server, state });
+const from = (texture) => gallery.from(texture);
+const links = new Links({ server, state, loader, from });
+startOwnLibrary({ server, state, loader, own, from, browse: () => gallery.browse() });
+new Out({ server, state, links });
 new In({ server, state, loader, gallery });
 // Static files show textures and make none.
 state.on(["about"], ({ about }) => {
@@ -95,5 +98,5 @@ sound.on("ticks", (ticks) => state.get("about")?.device || plots.addTicks(ticks)
 state.on(["texture"], ({ texture, asset }) => plots.setTexture(texture && texture.inspect, asset));
 startDevicePanel({ server, state, surface, plots });
 find("prompt").focus({ preventScroll: true });
-startBeginning({ state, server, loader, sound, move, restore });
+startBeginning({ state, server, loader, sound, move, restore, links });
 loader.begin();

@@ -119,7 +119,21 @@ export const texts = {
     vibration_text: (value) => number(value, 2),
   },
 
-  command: { label: "Command that writes the same bytes", copy: "Copy", copied: "Copied", selected: "Selected: copy it with Ctrl+C" },
+  command: { label: "Command that writes the same bytes" },
+  copy: { copy: "Copy", copied: "Copied", selected: "Selected: copy it with Ctrl+C" },
+
+  link: {
+    label: "Link",
+    about: "Paste it into any studio’s page, or put it behind the address of an exported one: it makes the same bytes there.",
+    none: "What comes from a file has no link: pass the asset on.",
+    not_opened: (why) => `The link was not opened: ${why}`,
+    other: (name) => `“${name}” has other bytes here than where the link was copied.`,
+    other_help: "That was another version of Asperity.",
+    no_compiler: "This page shows a library’s textures, and the link is a recipe for another one.",
+    no_compiler_help: "Paste it into the page of “asperity studio”.",
+    unknown: (name) => `the library has no texture “${name}”`,
+    unknown_help: "Start the studio with the library that the link was copied of.",
+  },
 
   hand: {
     title: "Hand",

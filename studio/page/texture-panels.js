@@ -1,6 +1,6 @@
 // What the page says about the texture: the prompt's reading, its neighbours, its facts, and its command lines.
 
-import { announce, element, find } from "./dom.js";
+import { announce, copy, element, find } from "./dom.js";
 import { Prompt } from "./prompt.js";
 import { certaintyText, showNearest, showReading } from "./reading.js";
 import { texts } from "./texts.js";
@@ -36,20 +36,8 @@ function showCommand(texture) {
   panel.hidden = !texture?.command;
   if (panel.hidden) return panel.replaceChildren();
   const code = element("code", { tabindex: "0", "aria-label": texts.command.label }, texture.command);
-  const copy = element("button", { type: "button", class: "quiet" }, texts.command.copy);
-  copy.addEventListener("click", async () => {
-    let said = texts.command.copied;
-    try {
-      await navigator.clipboard.writeText(texture.command);
-    } catch {
-      getSelection().selectAllChildren(code);
-      said = texts.command.selected;
-    }
-    copy.textContent = said;
-    announce(said);
-    setTimeout(() => (copy.textContent = texts.command.copy), 2000);
-  });
-  panel.replaceChildren(element("span", { class: "small" }, texts.command.label), code, copy);
+  const button = element("button", { type: "button", class: "quiet", onclick: () => copy(button, texture.command, code) }, texts.copy.copy);
+  panel.replaceChildren(element("span", { class: "small" }, texts.command.label), code, button);
 }
 
 function invite(compile) {

@@ -3,6 +3,7 @@
 
 use crate::{
     error::ApiError,
+    http::Status,
     prompts::Loaded,
     recipe::Operation,
     texture::{Making, Texture, damaged},
@@ -12,17 +13,73 @@ use asperity::{
     pipeline::{Clock, Request},
     sources::{
         Tools,
-        latents::{Edit, LatentEditor, Mix, MixOptions, MixPreview, explain},
+        latents::{AXES, Axis, Edit, LatentEditor, Mix, MixOptions, MixPreview, Sliders, explain},
         prompt::{self, Options, Prompt, PromptCompiler},
     },
 };
 use asperity_io::clock::now;
+use std::sync::Arc;
 
-/// Compiles a prompt, as `asperity compile`.
+/// Performs an operation on the textures that it takes, in their order.
 ///
 /// # Errors
-/// As the command.
-pub(crate) fn compile(loaded: &Loaded, text: &str, seed: u64) -> Result<Texture, ApiError> {
+/// As the command, for numbers out of bounds, and for what names a file.
+pub(crate) fn perform(
+    loaded: &Loaded,
+    operation: &Operation,
+    others: &[Arc<Texture>],
+) -> Result<Texture, ApiError> {
+    match (operation, others) {
+        (Operation::Compile { prompt, seed }, []) => compile(loaded, prompt, *seed),
+        (Operation::Edit { edit, draft, .. }, [texture]) => {
+            edit_of(loaded, texture, within(edit.clone())?, *draft)
+        }
+        (Operation::Blend { t, .. }, _) if !(0.0..=1.0).contains(t) => {
+            Err(out_of_bounds("t", *t, "from 0 to 1"))
+        }
+        // No command line takes −0.
+        (Operation::Blend { t, draft, .. }, [a, b]) => blend(loaded, [a, b], t + 0.0, *draft),
+        (Operation::Compose { .. }, [tap, slide, friction]) => {
+            compose(loaded, [tap, slide, friction])
+        }
+        (Operation::Encode { .. }, [texture]) => encode(loaded, texture),
+        _ => {
+            let error = "this names a file, which is not here";
+            Err(ApiError::new(Status::BadRequest, error, "open the file"))
+        }
+    }
+}
+
+/// Steps that the command takes.
+fn within(edit: Edit) -> Result<Edit, ApiError> {
+    let Edit::Steps(steps) = &edit else {
+        return Ok(edit);
+    };
+    let largest = Sliders::LARGEST;
+    let beyond = |axis: &Axis| !(-largest..=largest).contains(&steps.along(*axis));
+    match AXES.into_iter().find(beyond) {
+        Some(axis) => {
+            let field = match axis {
+                Axis::Rough => "steps.rougher",
+                Axis::Sharp => "steps.sharper",
+                Axis::Hard => "steps.harder",
+                Axis::Slippery => "steps.slipperier",
+            };
+            let bounds = format!("from {} to {largest}", -largest);
+            Err(out_of_bounds(field, steps.along(axis), &bounds))
+        }
+        None => Ok(edit),
+    }
+}
+
+fn out_of_bounds(field: &str, value: f64, bounds: &str) -> ApiError {
+    let error = format!("{field} is {value}");
+    let help = format!("give a number {bounds}");
+    ApiError::new(Status::BadRequest, error, &help)
+}
+
+/// Compiles a prompt, as `asperity compile`.
+fn compile(loaded: &Loaded, text: &str, seed: u64) -> Result<Texture, ApiError> {
     prompt::check(text).map_err(|e| ApiError::of(&e))?;
     let request: Request = Options::default().request;
     let source = Prompt {
@@ -58,10 +115,7 @@ fn options(draft: bool) -> MixOptions {
 }
 
 /// Edits a texture, as `asperity edit`.
-///
-/// # Errors
-/// As the command.
-pub(crate) fn edit(
+fn edit_of(
     loaded: &Loaded,
     texture: &Texture,
     edit: Edit,
@@ -81,15 +135,7 @@ pub(crate) fn edit(
 }
 
 /// A texture between two, as `asperity blend`.
-///
-/// # Errors
-/// As the command.
-pub(crate) fn blend(
-    loaded: &Loaded,
-    [a, b]: [&Texture; 2],
-    t: f64,
-    draft: bool,
-) -> Result<Texture, ApiError> {
+fn blend(loaded: &Loaded, [a, b]: [&Texture; 2], t: f64, draft: bool) -> Result<Texture, ApiError> {
     let editor = loaded.editor();
     let mix = editor
         .blend(&a.parsed()?, &b.parsed()?, t, &options(draft))
@@ -104,13 +150,7 @@ pub(crate) fn blend(
 }
 
 /// A texture that taps, slides and rubs like these, as `asperity compose`.
-///
-/// # Errors
-/// As the command.
-pub(crate) fn compose(
-    loaded: &Loaded,
-    [tap, slide, friction]: [&Texture; 3],
-) -> Result<Texture, ApiError> {
+fn compose(loaded: &Loaded, [tap, slide, friction]: [&Texture; 3]) -> Result<Texture, ApiError> {
     let editor = loaded.editor();
     let rubbed = friction.parsed()?;
     let mix = editor
@@ -130,10 +170,7 @@ pub(crate) fn compose(
 }
 
 /// The texture that the latent of a recording decodes to, as `asperity encode`.
-///
-/// # Errors
-/// As the command.
-pub(crate) fn encode(loaded: &Loaded, texture: &Texture) -> Result<Texture, ApiError> {
+fn encode(loaded: &Loaded, texture: &Texture) -> Result<Texture, ApiError> {
     let editor = loaded.editor();
     let mix = editor
         .encoded(&texture.parsed()?, None, &MixOptions::default())

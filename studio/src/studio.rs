@@ -11,8 +11,9 @@ use crate::{
     making,
     opening::{self, FileContent},
     project::Project,
-    prompts::{LoadPrompts, Loaded, Prompts},
+    prompts::{LoadPrompts, Prompts},
     recent::{self, Recent},
+    recipe::{Link, Operation},
     texture::Texture,
 };
 use std::sync::Arc;
@@ -120,30 +121,45 @@ impl Studio {
         self.shelf.start()
     }
 
-    /// Compiles a prompt, and keeps the texture.
+    /// Performs an operation, and keeps what comes of it: a draft not for long.
     ///
     /// # Errors
-    /// As the command, and without a prompt compiler.
-    pub(crate) fn compile(&self, prompt: &str, seed: u64) -> Result<Arc<Texture>, ApiError> {
-        self.make(false, |loaded| making::compile(loaded, prompt, seed))
+    /// As the command, for textures that are not here, and without a prompt compiler.
+    pub(crate) fn perform(&self, operation: Operation) -> Result<Arc<Texture>, ApiError> {
+        self.perform_on(operation, |id| self.texture(id))
     }
 
-    /// Makes a texture with the prompt compiler, and keeps it: a draft not for long.
+    /// Performs the operations of a link; what each gave.
     ///
     /// # Errors
-    /// As `make`, and without a prompt compiler.
-    pub(crate) fn make(
-        &self,
-        draft: bool,
-        make: impl FnOnce(&Loaded) -> Result<Texture, ApiError>,
-    ) -> Result<Arc<Texture>, ApiError> {
-        let texture = self.compute(|| make(self.prompts.get()?))?;
-        if draft {
-            let texture = Arc::new(texture);
-            self.drafts.keep(Arc::clone(&texture));
-            return Ok(texture);
+    /// As [`perform`](Self::perform), for the first that fails.
+    pub(crate) fn follow(&self, link: &Link) -> Result<Vec<Arc<Texture>>, ApiError> {
+        let mut made: Vec<Arc<Texture>> = Vec::with_capacity(link.steps.len());
+        for (at, step) in link.steps.iter().enumerate() {
+            let texture = self.perform_on(step.clone(), |name| {
+                Ok(Arc::clone(&made[Link::place(at, name)?]))
+            })?;
+            made.push(texture);
         }
-        Ok(self.keep(texture))
+        Ok(made)
+    }
+
+    fn perform_on(
+        &self,
+        mut operation: Operation,
+        texture: impl Fn(&str) -> Result<Arc<Texture>, ApiError>,
+    ) -> Result<Arc<Texture>, ApiError> {
+        let names = operation.others_mut().into_iter();
+        let others = names
+            .map(|name| texture(name))
+            .collect::<Result<Vec<_>, _>>()?;
+        let made = self.compute(|| making::perform(self.prompts.get()?, &operation, &others))?;
+        if operation.is_draft() {
+            let made = Arc::new(made);
+            self.drafts.keep(Arc::clone(&made));
+            return Ok(made);
+        }
+        Ok(self.keep(made))
     }
 
     /// Opens the bytes of a file, and keeps what it holds. Of a picture, its size and its material have to be stated.

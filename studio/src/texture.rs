@@ -72,6 +72,7 @@ struct Shown<'a> {
     certainty: Option<Certainty>,
     file: String,
     command: Option<String>,
+    link: Option<String>,
 }
 
 #[derive(Serialize)]
@@ -226,6 +227,7 @@ impl Texture {
             certainty: memory.and_then(|memory| memory.history.certainty),
             file: self.file(),
             command: self.recipe.as_ref().and_then(Recipe::command),
+            link: self.recipe.as_ref().and_then(Recipe::link),
         })
     }
 

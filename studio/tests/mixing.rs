@@ -13,6 +13,8 @@ use asperity::{
     },
 };
 use asperity_formats::Asset;
+use asperity_studio::Limits;
+use base64::{Engine as _, engine::general_purpose::URL_SAFE_NO_PAD};
 use serde_json::{Value, json};
 use std::sync::LazyLock;
 
@@ -237,4 +239,69 @@ fn the_page_learns_the_scale_of_the_sliders_and_the_exports() {
         endings.join(" "),
         "export.c export.h export.rs export.hjif export.hmpg export.ahap export.haptic export.gltf export.wav export.csv"
     );
+}
+
+#[test]
+fn a_link_makes_the_same_bytes_wherever_it_is_opened() {
+    let (wool, steel) = (prompted("wool"), prompted("brushed steel"));
+    let edited = made(
+        "api/edit",
+        &json!({ "texture": wool["id"], "steps": { "rougher": 7.5 } }),
+    );
+    let blended = made(
+        "api/blend",
+        &json!({ "a": edited["id"], "b": steel["id"], "t": 0.3 }),
+    );
+    let mixed = made(
+        "api/compose",
+        &json!({ "tap": blended["id"], "slide": wool["id"], "friction": edited["id"] }),
+    );
+    let site = Site::start(None, Limits::default());
+    for texture in [&wool, &edited, &blended, &mixed] {
+        let reply = post(&site, "api/link", &json!({ "link": texture["link"] }));
+        assert_eq!(reply.status, 200, "{reply:?}");
+        let found = reply.json();
+        assert_eq!(found["same"], true);
+        for key in ["id", "command", "link", "name"] {
+            assert_eq!(found["texture"][key], texture[key]);
+        }
+    }
+    let link = json!({ "link": edited["link"] });
+    let found = post(&site, "api/link", &link).json();
+    assert_eq!(found["base"]["id"], wool["id"], "the sliders begin at wool");
+    assert_eq!(found["steps"]["rougher"], 7.5);
+}
+
+#[test]
+fn what_is_no_link_of_words_is_refused() {
+    let opened = SHARED.post("api/open?name=cork.asp", &compiled("cork"));
+    assert!(opened.json()["texture"]["link"].is_null(), "it has a file");
+    let link = |steps: Value| {
+        let text = json!({ "id": "", "steps": steps }).to_string();
+        json!({ "link": URL_SAFE_NO_PAD.encode(text) })
+    };
+    let compile = json!({ "Compile": { "prompt": "cork", "seed": 0 } });
+    let blend = |a: &str, t: f64| json!({ "Blend": { "a": a, "b": "0", "t": t, "draft": false } });
+    for (link, said) in [
+        (json!({ "link": "" }), "no recipe"),
+        (json!({ "link": "bm90aGluZw" }), "no recipe"),
+        (link(json!([])), "no recipe"),
+        (link(json!(vec![compile.clone(); 65])), "no recipe"),
+        (link(json!([compile, blend("1", 0.5)])), "not made before"),
+        (link(json!([compile, blend("-1", 0.5)])), "not made before"),
+        (link(json!([compile, blend("0", 1.5)])), "t is 1.5"),
+        (
+            link(json!([{ "File": { "path": "/etc/passwd", "id": "" } }])),
+            "names a file",
+        ),
+    ] {
+        let reply = post(&SHARED, "api/link", &link);
+        let error = reply.json()["error"].to_string();
+        assert!(
+            reply.status == 400 && error.contains(said),
+            "{link}: {reply:?}"
+        );
+    }
+    let other = post(&SHARED, "api/link", &link(json!([compile])));
+    assert_eq!(other.json()["same"], false, "its bytes are others");
 }

@@ -1,6 +1,6 @@
-// The panel “Take it with you”: every file of the texture.
+// The panel “Take it with you”: every file of the texture, and its link.
 
-import { announce, busily, element, find, notify, save, withdraw } from "../dom.js";
+import { announce, busily, copy, element, find, notify, save, withdraw } from "../dom.js";
 import { Refusal } from "../server.js";
 import { texts } from "../texts.js";
 
@@ -36,15 +36,18 @@ const fileName = ({ file }, suffix) => file.replace(/\.asp$/, "") + suffix;
 
 export class Out {
   #server;
+  #links;
 
-  constructor({ server, state }) {
+  constructor({ server, state, links }) {
     this.#server = server;
+    this.#links = links;
+    this.link = element("div", { class: "link-row" });
     this.title = element("span", { class: "file" });
     this.kinds = element("div", { class: "kinds" });
     find("take").append(
       element("div", { class: "row" }, element("h2", { id: "take-title" }, texts.files.take), this.title,
         element("button", { type: "button", class: "quiet", popovertarget: "take", popovertargetaction: "hide" }, texts.files.close)),
-      this.kinds);
+      this.kinds, this.link);
     state.on(["texture", "about"], ({ texture, about }) => this.#show(texture, about));
   }
 
@@ -59,11 +62,21 @@ export class Out {
       element("span", { class: "label" }, kind.label), element("span", { class: "ending" }, kind.suffix.trim()),
       element("span", { class: "purpose" }, kind.purpose)));
     };
+    this.#showLink(texture);
     const groups = kindsOf(about);
     const section = (group) => element("section", {}, element("h3", {}, texts.files.groups[group]),
       element("ul", {}, ...groups[group].map(button)));
     this.kinds.replaceChildren(...COLUMNS.map((column) => element("div", {},
       ...column.filter((group) => groups[group].length > 0).map(section))));
+  }
+
+  #showLink(texture) {
+    const address = this.#links.address(texture);
+    const title = element("h3", {}, texts.link.label);
+    if (!address) return this.link.replaceChildren(title, element("p", { class: "small" }, texts.link.none));
+    const code = element("code", { tabindex: "0", "aria-label": texts.link.label }, address);
+    const button = element("button", { type: "button", id: "copy-link", onclick: () => copy(button, address, code) }, texts.copy.copy);
+    this.link.replaceChildren(title, code, button, element("p", { class: "small" }, texts.link.about));
   }
 
   async #save(texture, { ending }, name) {

@@ -11,41 +11,10 @@ import { Filters } from "./filters.js";
 import { Grid } from "./grid.js";
 import { Library } from "./library.js";
 import { mountScatter } from "./scatter.js";
+import { handButton, startViews } from "./views.js";
 
 /** How long the arrow keys rest before what they reached is picked, ms. */
 const REACHED_MS = 150;
-
-/** The button of the hand that moves by itself, once more, beside what is picked. */
-function handButton() {
-  const original = find("auto");
-  const button = element("button", { type: "button", class: "hand", onclick: () => original.click() });
-  const follow = () => {
-    button.textContent = original.textContent;
-    button.disabled = original.disabled;
-    button.setAttribute("aria-pressed", original.getAttribute("aria-pressed"));
-  };
-  new MutationObserver(follow).observe(original, { attributes: true, childList: true, characterData: true, subtree: true });
-  follow();
-  return button;
-}
-
-/** The page's two views: the prompt, or the gallery in its place. Surface and controls stay. */
-const VIEWS = ["prompt", "gallery"];
-
-/** `changed()` hears of every change; gives { show(view) }. */
-function startViews(changed) {
-  const inputs = VIEWS.map((view) => element("input", { type: "radio", name: "view", value: view, onchange: () => show(view) }));
-  const show = (view) => {
-    inputs[VIEWS.indexOf(view)].checked = true;
-    find("desk").classList.toggle("browsing", view === "gallery");
-    find("gallery").hidden = view !== "gallery";
-    changed();
-  };
-  find("views").replaceChildren(...inputs.map((input, n) =>
-    element("label", {}, input, element("span", {}, texts.gallery.view[VIEWS[n]]))));
-  show("prompt");
-  return { show };
-}
 
 class Gallery {
   #parts;
@@ -87,8 +56,10 @@ class Gallery {
 
   /** Where a texture was picked from a library, as a project keeps it. */
   from({ id }) {
-    const origin = this.#origins.get(id);
-    return origin?.library.origin(origin.place);
+    const picked = this.#origins.get(id);
+    if (picked) return picked.library.origin(picked.place);
+    const library = this.#libraries.find((each) => each.id !== OWN && each.textures?.includes(id));
+    return library?.origin(library.textures.indexOf(id));
   }
 
   /** Shows the library of one's own. */
@@ -242,8 +213,8 @@ class Gallery {
   /** Marks the texture on the surface in the library that is shown. */
   #mark(texture, scroll = false) {
     const origin = texture && this.#origins.get(texture.id);
-    const own = this.#library?.id === OWN && texture ? this.#library.textures.indexOf(texture.id) : -1;
-    const place = own >= 0 ? own : origin?.library === this.#library ? (origin?.place ?? null) : null;
+    const known = texture ? (this.#library?.textures?.indexOf(texture.id) ?? -1) : -1;
+    const place = origin && origin.library === this.#library ? origin.place : known >= 0 ? known : null;
     this.grid.choose(place, scroll);
     this.scatter.choose(place);
   }

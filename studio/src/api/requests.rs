@@ -1,8 +1,15 @@
 //! Requests in JSON: which fields they have, and within which bounds.
 
-use crate::{error::ApiError, http::Status, making, studio::Studio, texture::Texture};
-use asperity::sources::latents::{AXES, Axis, Edit as LatentEdit, Sliders};
+use crate::{
+    error::ApiError,
+    http::Status,
+    recipe::{Link, Operation},
+    studio::Studio,
+    texture::Texture,
+};
+use asperity::sources::latents::{Edit as LatentEdit, Sliders};
 use serde::{Deserialize, de::DeserializeOwned};
+use serde_json::json;
 use std::sync::Arc;
 
 /// Bytes of a request.
@@ -48,6 +55,13 @@ struct Compose {
     friction: String,
 }
 
+/// `POST api/link`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Linked {
+    link: String,
+}
+
 /// `POST api/encode`, `POST api/device/play`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -73,22 +87,28 @@ pub(super) fn make(path: &str) -> Option<Make> {
 fn compile(studio: &Studio, bytes: &[u8]) -> Result<Arc<Texture>, ApiError> {
     let expected = "{\"prompt\": TEXT, \"seed\": NUMBER}, in UTF-8; the seed may be left out";
     let Compile { prompt, seed } = parsed(bytes, expected)?;
-    studio.compile(&prompt, seed)
+    studio.perform(Operation::Compile { prompt, seed })
 }
 
 fn edit(studio: &Studio, bytes: &[u8]) -> Result<Arc<Texture>, ApiError> {
     const EXPECTED: &str = "{\"texture\": ID, \"steps\": {\"rougher\": NUMBER, …}} with rougher, sharper, harder, \
          slipperier, or {\"texture\": ID, \"words\": TEXT}; \"draft\": true leaves the picture out";
-    let request: Edit = parsed(bytes, EXPECTED)?;
-    let asked = match (request.steps, request.words) {
-        (Some(steps), None) => LatentEdit::Steps(within(steps)?),
+    let Edit {
+        texture,
+        steps,
+        words,
+        draft,
+    } = parsed(bytes, EXPECTED)?;
+    let edit = match (steps, words) {
+        (Some(steps), None) => LatentEdit::Steps(steps),
         (None, Some(words)) => LatentEdit::Words(words),
         (Some(_), Some(_)) => return Err(unexpected("it has both steps and words", EXPECTED)),
         (None, None) => return Err(unexpected("it has neither steps nor words", EXPECTED)),
     };
-    let texture = studio.texture(&request.texture)?;
-    studio.make(request.draft, |loaded| {
-        making::edit(loaded, &texture, asked, request.draft)
+    studio.perform(Operation::Edit {
+        texture,
+        edit,
+        draft,
     })
 }
 
@@ -96,30 +116,49 @@ fn blend(studio: &Studio, bytes: &[u8]) -> Result<Arc<Texture>, ApiError> {
     const EXPECTED: &str =
         "{\"a\": ID, \"b\": ID, \"t\": NUMBER}; \"draft\": true leaves the picture out";
     let Blend { a, b, t, draft } = parsed(bytes, EXPECTED)?;
-    if !(0.0..=1.0).contains(&t) {
-        return Err(out_of_bounds("t", t, "from 0 to 1"));
-    }
-    let (a, b) = (studio.texture(&a)?, studio.texture(&b)?);
-    // No command line takes −0.
-    studio.make(draft, |loaded| {
-        making::blend(loaded, [&a, &b], t + 0.0, draft)
-    })
+    studio.perform(Operation::Blend { a, b, t, draft })
 }
 
 fn compose(studio: &Studio, bytes: &[u8]) -> Result<Arc<Texture>, ApiError> {
-    let expected = "{\"tap\": ID, \"slide\": ID, \"friction\": ID}";
-    let request: Compose = parsed(bytes, expected)?;
-    let tap = studio.texture(&request.tap)?;
-    let slide = studio.texture(&request.slide)?;
-    let friction = studio.texture(&request.friction)?;
-    studio.make(false, |loaded| {
-        making::compose(loaded, [&tap, &slide, &friction])
+    let Compose {
+        tap,
+        slide,
+        friction,
+    } = parsed(bytes, "{\"tap\": ID, \"slide\": ID, \"friction\": ID}")?;
+    studio.perform(Operation::Compose {
+        tap,
+        slide,
+        friction,
     })
 }
 
 fn encode(studio: &Studio, bytes: &[u8]) -> Result<Arc<Texture>, ApiError> {
-    let texture = studio.texture(&texture(bytes)?)?;
-    studio.make(false, |loaded| making::encode(loaded, &texture))
+    let texture = texture(bytes)?;
+    studio.perform(Operation::Encode { texture })
+}
+
+/// What a link leads to: `{texture, base, steps, same}`, where steps of the sliders lead from the base to the texture, if
+/// they are the last operation, and `same` tells whether the bytes are those that the link was written for.
+pub(super) fn link(studio: &Studio, bytes: &[u8]) -> Result<String, ApiError> {
+    let Linked { link } = parsed(bytes, "{\"link\": TEXT}")?;
+    let link = Link::parse(&link)?;
+    let made = studio.follow(&link)?;
+    let (texture, before) = (&made[made.len() - 1], link.steps.last());
+    let stepped = match before {
+        Some(Operation::Edit {
+            texture,
+            edit: LatentEdit::Steps(steps),
+            ..
+        }) => Some((&made[Link::place(made.len() - 1, texture)?], steps)),
+        _ => None,
+    };
+    let base = stepped.map_or_else(|| "null".to_owned(), |(base, _)| studio.shown(base));
+    let steps = json!(stepped.map(|(_, steps)| steps));
+    let same = texture.id() == link.id;
+    let shown = studio.shown(texture);
+    Ok(format!(
+        "{{\"texture\":{shown},\"base\":{base},\"steps\":{steps},\"same\":{same}}}"
+    ))
 }
 
 /// The name of the texture that a request is about.
@@ -136,32 +175,4 @@ pub(super) fn parsed<T: DeserializeOwned>(bytes: &[u8], expected: &str) -> Resul
 fn unexpected(why: &str, expected: &str) -> ApiError {
     let error = format!("the request is not as expected: {why}");
     ApiError::new(Status::BadRequest, error, &format!("send {expected}"))
-}
-
-/// Steps that the command takes.
-fn within(steps: Sliders) -> Result<Sliders, ApiError> {
-    let largest = Sliders::LARGEST;
-    let beyond = |axis: &Axis| !(-largest..=largest).contains(&steps.along(*axis));
-    match AXES.into_iter().find(beyond) {
-        Some(axis) => {
-            let field = match axis {
-                Axis::Rough => "steps.rougher",
-                Axis::Sharp => "steps.sharper",
-                Axis::Hard => "steps.harder",
-                Axis::Slippery => "steps.slipperier",
-            };
-            let bounds = format!("from {} to {largest}", -largest);
-            Err(out_of_bounds(field, steps.along(axis), &bounds))
-        }
-        None => Ok(steps),
-    }
-}
-
-fn out_of_bounds(field: &str, value: f64, bounds: &str) -> ApiError {
-    let error = format!("{field} is {value}");
-    ApiError::new(
-        Status::BadRequest,
-        error,
-        &format!("give a number {bounds}"),
-    )
 }

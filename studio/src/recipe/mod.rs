@@ -1,5 +1,6 @@
 //! Provenance of a texture, and the commands that reproduce its bytes.
 
+mod link;
 #[cfg(test)]
 mod tests;
 mod words;
@@ -9,6 +10,8 @@ use asperity_io::{output::FileNames, shown::shell_word};
 use serde::{Deserialize, Serialize};
 use std::{collections::HashMap, path::Path, sync::Arc};
 use words::{options, path_word, quoted};
+
+pub(crate) use link::Link;
 
 /// Steps that are remembered: more are no command that anyone would copy.
 const MOST: usize = 64;
@@ -38,7 +41,7 @@ pub(crate) struct Opened {
 }
 
 /// Operation of a step. Other textures are named by the identifiers of their bytes.
-#[derive(Serialize, Deserialize)]
+#[derive(Clone, Serialize, Deserialize)]
 pub(crate) enum Operation {
     /// A file holds the texture.
     File(Opened),
@@ -229,6 +232,39 @@ fn without_picture(draft: bool) -> &'static str {
 }
 
 impl Operation {
+    /// The same of textures by other names.
+    fn of(&self, name: impl Fn(&str) -> String) -> Self {
+        let mut operation = self.clone();
+        for texture in operation.others_mut() {
+            *texture = name(texture);
+        }
+        operation
+    }
+
+    /// The textures that it takes, by their names.
+    pub(crate) fn others_mut(&mut self) -> Vec<&mut String> {
+        match self {
+            Self::File(_) | Self::Import { .. } | Self::Extract { .. } | Self::Compile { .. } => {
+                Vec::new()
+            }
+            Self::Edit { texture, .. } | Self::Encode { texture } => vec![texture],
+            Self::Blend { a, b, .. } => vec![a, b],
+            Self::Compose {
+                tap,
+                slide,
+                friction,
+            } => vec![tap, slide, friction],
+        }
+    }
+
+    /// Returns true for what is heard while a slider moves.
+    pub(crate) const fn is_draft(&self) -> bool {
+        matches!(
+            self,
+            Self::Edit { draft: true, .. } | Self::Blend { draft: true, .. }
+        )
+    }
+
     fn opened(&self) -> Option<&Opened> {
         match self {
             Self::File(file) | Self::Import { file, .. } | Self::Extract { library: file, .. } => {
