@@ -120,6 +120,37 @@ async function map(visit, { assert, asperity, folder }) {
     `a height map becomes a texture by its size and words, with the bytes of ${command}`);
 }
 
+/** A list of prompts, which becomes a library to look through. */
+async function list({ page, errors }, { assert, asperity, folder, offline }) {
+  const rows = [["floor", "wet ice"], ["hall", "xqzt"], ["wall", "cork"]];
+  const table = (rows) => Buffer.from(`name,prompt\n${rows.map((row) => `${row.join(",")}\n`).join("")}`);
+  writeFileSync(join(folder, "rooms.csv"), table(rows));
+  await drop(page, [{ name: "rooms.csv", bytes: table(rows) }]);
+  await page.waitForFunction(() => document.querySelector(".cell[data-index='2']")?.title.startsWith("wall"), null, { timeout: 60000 });
+  await page.click(".cell[data-index='2']");
+  await shown(page, "wall");
+  run(asperity, folder, "build", "rooms.csv", "-o", "rooms.aspl", "--no-cache", "--quiet");
+  run(asperity, folder, "extract", "rooms.aspl", "wall", "-o", "wall.asp", "--quiet");
+  await page.click("#take-button");
+  const { bytes } = await downloaded(page, () => page.click('.kind[data-ending="asp"]'));
+  await page.keyboard.press("Escape");
+  assert(bytes.equals(readFileSync(join(folder, "wall.asp"))), "a list of prompts becomes a library, with the bytes of asperity build");
+  await page.click(".ranges summary");
+  await page.selectOption("#gallery-certainty", "guess");
+  await page.waitForFunction(() => document.querySelectorAll(".cell").length === 1);
+  assert((await page.getAttribute(".cell", "title")).startsWith("hall"), "and tells which prompts are guesses");
+  await page.selectOption("#gallery-certainty", "any");
+  await page.click(".ranges summary");
+  // The module of a page without a server answers nothing else meanwhile.
+  if (offline) return;
+  await drop(page, [{ name: "many.csv", bytes: table(Array.from({ length: 5000 }, (_, n) => [`n ${n}`, `cork and ${n} wool`])) }]);
+  await page.waitForFunction(() => /[1-9]\d* of 5,000/.test(document.getElementById("opening").textContent), null, { timeout: 60000 });
+  await page.click("#stop-batch");
+  await page.waitForFunction(() => document.getElementById("opening").textContent === "", null, { timeout: 60000 });
+  errors.splice(0);
+  assert((await page.$$(".notice")).length === 0 && (await page.$$(".cell")).length === 3, "a long one says how far it is, and can be stopped");
+}
+
 /** `offline` where the page comes from files alone. */
 export async function files(visit, { assert, asperity, work, offline = false }) {
   const folder = join(work, "files");
@@ -130,4 +161,5 @@ export async function files(visit, { assert, asperity, work, offline = false }) 
   await kept(visit, tools);
   await opened(visit, tools);
   await map(visit, tools);
+  await list(visit, tools);
 }

@@ -80,6 +80,15 @@ export class Server {
     return this.#json(`api/open?${new URLSearchParams({ name: file.name, ...stated })}`, options);
   }
 
+  /** How far the list is that is compiled: { done, total }, of 0 where none is. */
+  batch() {
+    return this.#json("api/batch.json", {});
+  }
+
+  stopBatch() {
+    return this.#post("api/batch.json", {});
+  }
+
   /** One library of a library's description in `about`, with the columns of its textures. */
   library(id, signal) {
     return this.#json(`api/library/${id}.json`, { signal });

@@ -40,6 +40,8 @@ pub struct Collection {
     storage: Storage,
     /// Where it lies is of no interest to those who see it.
     elsewhere: bool,
+    /// The list that it was compiled from here.
+    listed: Option<Opened>,
     rows: Vec<TextureSummary>,
     columns: OnceLock<Arc<[u8]>>,
     thumbnails: Thumbnails,
@@ -106,6 +108,18 @@ impl Collection {
         Self::library(textures, id).map_err(|e| refused(&e))
     }
 
+    /// A library that was compiled from a list.
+    ///
+    /// # Errors
+    /// As [`dropped`](Self::dropped).
+    pub(crate) fn built(textures: Textures, listed: Opened) -> Result<Self, ApiError> {
+        let built = Self::dropped(textures, listed.id.clone())?;
+        Ok(Self {
+            listed: Some(listed),
+            ..built
+        })
+    }
+
     fn library(mut textures: Textures, id: String) -> Result<Self, TexturesError> {
         let rows = textures.each(Meter::default, TextureSummary::of)?;
         Ok(Self {
@@ -113,6 +127,7 @@ impl Collection {
             id,
             storage: Storage::Library(Mutex::new(textures)),
             elsewhere: false,
+            listed: None,
             rows,
             columns: OnceLock::new(),
             thumbnails: Thumbnails::default(),
@@ -171,6 +186,7 @@ impl Collection {
             id: String::new(),
             storage: Storage::Folder { path, files },
             elsewhere: false,
+            listed: None,
             rows,
             columns: OnceLock::new(),
             thumbnails: Thumbnails::default(),
@@ -263,8 +279,12 @@ impl Collection {
                 path.to_string_lossy().into_owned()
             }
         };
-        let operation = |id: &str| match &self.storage {
-            Storage::Library(textures) => {
+        let operation = |id: &str| match (&self.listed, &self.storage) {
+            (Some(list), _) => Operation::Build {
+                list: list.clone(),
+                texture: name.clone(),
+            },
+            (None, Storage::Library(textures)) => {
                 let textures = textures.lock().unwrap_or_else(PoisonError::into_inner);
                 let library = Opened {
                     path: shown(textures.path()),
@@ -273,7 +293,7 @@ impl Collection {
                 let texture = name.clone();
                 Operation::Extract { library, texture }
             }
-            Storage::Folder { files, .. } => Operation::File(Opened {
+            (None, Storage::Folder { files, .. }) => Operation::File(Opened {
                 path: shown(&files[at]),
                 id: id.to_owned(),
             }),

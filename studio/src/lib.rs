@@ -33,6 +33,7 @@
 
 mod about;
 mod api;
+mod batch;
 mod browser;
 mod collection;
 mod connections;

@@ -30,7 +30,7 @@ use std::path::{Path, PathBuf};
 /// Leading bytes that tell what a file is, as for commands.
 const TELLING: usize = 64 << 10;
 /// File types that can be opened.
-const WANTED: &str = "an asset, a library, a HaTT material, a model, AHAP, .haptic, HJIF or a picture of heights or normals";
+const WANTED: &str = "an asset, a library, a HaTT material, a model, AHAP, .haptic, HJIF, a picture of heights or normals, or a list of prompts (.csv)";
 
 /// The content of a file.
 pub(crate) enum FileContent {

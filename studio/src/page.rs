@@ -31,7 +31,7 @@ pub(crate) const FILES: &[File] = files! {
         "server.js" "sound-panel.js" "sound.js" "studio.js" "suggest.js" "surface.js" "texts.js" "texture-panels.js"
         "view.js" "worklet.js"
         "device/feed.js" "device/jitter.js" "device/panel.js"
-        "files/in.js" "files/map.js" "files/out.js"
+        "files/batch.js" "files/in.js" "files/map.js" "files/out.js"
         "gallery/attributes.js" "gallery/chosen.js" "gallery/compare.js" "gallery/filters.js" "gallery/gallery.js" "gallery/grid.js"
         "gallery/library.js" "gallery/scatter.js" "gallery/span.js" "gallery/thumbnails.js" "gallery/views.js"
         "library/own.js" "library/panel.js"

@@ -46,18 +46,26 @@ impl Prompts {
         self.load.is_some()
     }
 
-    /// The prompt compiler. The first call loads it, others wait meanwhile.
+    /// Returns what loads a prompt compiler.
     ///
     /// # Errors
-    /// Where there is none, or it cannot be loaded.
-    pub(crate) fn get(&self) -> Result<&Loaded, ApiError> {
-        let load = self.load.ok_or_else(|| {
+    /// Where there is none.
+    pub(crate) fn loader(&self) -> Result<LoadPrompts, ApiError> {
+        self.load.ok_or_else(|| {
             ApiError::new(
                 Status::Unprocessable,
                 "this server does not compile prompts and does not edit textures",
                 "open the page of `asperity studio`, which does both",
             )
-        })?;
+        })
+    }
+
+    /// The prompt compiler. The first call loads it, others wait meanwhile.
+    ///
+    /// # Errors
+    /// Where there is none, or it cannot be loaded.
+    pub(crate) fn get(&self) -> Result<&Loaded, ApiError> {
+        let load = self.loader()?;
         let loaded = self.loaded.get_or_init(|| {
             let compiler = load().map_err(|error| ApiError::of(error.as_ref()))?;
             let scale = Scale::of(compiler.model().description());

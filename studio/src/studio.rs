@@ -2,6 +2,7 @@
 
 use crate::{
     about::{self, Served},
+    batch::{self, Batch},
     collection::Collection,
     device::LiveDevice,
     error::ApiError,
@@ -23,6 +24,7 @@ pub struct Studio {
     shelf: LibraryStore,
     device: Option<LiveDevice>,
     prompts: Prompts,
+    batch: Batch,
     recent: Recent,
     drafts: Recent,
     project: Option<Project>,
@@ -45,6 +47,7 @@ impl Studio {
             shelf: LibraryStore::new(collection),
             device: None,
             prompts: Prompts::new(prompts),
+            batch: Batch::default(),
             recent: Recent::new(recent::MOST),
             drafts: Recent::new(recent::MOST_DRAFTS),
             project: None,
@@ -172,6 +175,10 @@ impl Studio {
         bytes: Vec<u8>,
         stated: &[(&'static str, String)],
     ) -> Result<OpenedFile, ApiError> {
+        if batch::is_list(file) {
+            let library = self.batch.run(file, &bytes, self.prompts.loader()?)?;
+            return Ok(OpenedFile::Library(self.shelf.keep(library)));
+        }
         let found = self.compute(|| {
             if !opening::is_picture(&bytes) {
                 return opening::open(file, bytes);
@@ -183,6 +190,11 @@ impl Studio {
             FileContent::Texture(texture) => OpenedFile::Texture(self.keep(*texture)),
             FileContent::Library(library) => OpenedFile::Library(self.shelf.keep(*library)),
         })
+    }
+
+    /// The list of prompts that is compiled, if any.
+    pub(crate) fn batch(&self) -> &Batch {
+        &self.batch
     }
 
     /// The library of this name.

@@ -9,6 +9,7 @@ mod export;
 mod files;
 mod gallery;
 mod hostile_files;
+mod lists;
 mod mixing;
 mod refusals;
 mod reply;

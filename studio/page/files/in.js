@@ -3,6 +3,7 @@
 import { announce, element, find, notify, withdraw } from "../dom.js";
 import { Refusal } from "../server.js";
 import { texts } from "../texts.js";
+import { isList, watched } from "./batch.js";
 import { askMap, isPicture } from "./map.js";
 
 /** Bytes that the server takes. */
@@ -64,7 +65,10 @@ export class In {
       const body = new File([await file.arrayBuffer()], file.name);
       const stated = isPicture(file) ? await askMap(file) : {};
       if (!stated) return null;
-      const { texture, library } = await server.open(body, stated);
+      const asked = server.open(body, stated);
+      const opened = await (isList(file) ? watched(server, file, asked) : asked);
+      if (!opened) return null;
+      const { texture, library } = opened;
       if (library) await gallery.add(library);
       else await loader.take(async () => texture, { kind: "open", name: file.name });
       return null;

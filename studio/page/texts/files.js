@@ -5,7 +5,7 @@ import { number } from "./number.js";
 export const files = {
   open: "Open a file …",
   drop: "Drop to open",
-  drop_kinds: "Assets, libraries, HaTT models (.xml), JSON models, effects (.haptic, .ahap, .hjif), pictures of heights or normals",
+  drop_kinds: "Assets, libraries, HaTT models (.xml), JSON models, effects (.haptic, .ahap, .hjif), pictures of heights or normals, lists of prompts (.csv)",
   map: {
     title: (name) => `What ${name} does not say`,
     about: "Heights are grey, white high; normals are told by their colours. A photograph says nothing of touch.",
@@ -16,6 +16,9 @@ export const files = {
     cancel: "Cancel",
   },
   opening: (name, at, count) => (count === 1 ? `Opening ${name} …` : `Opening ${name} (${at} of ${count}) …`),
+  compiling: (name) => `Compiling ${name} …`,
+  compiled: (name, done, total) => `Compiling ${name}: ${number(done, 0)} of ${number(total, 0)} …`,
+  stop: "Stop",
   opened: (name) => `Opened ${name}.`,
   not_opened: (name, why) => `${name} was not opened. ${why}`,
   folder: (name) => `${name} is a folder.`,

@@ -12,6 +12,7 @@ use crate::{
     project::STATE_BYTES,
     studio::Studio,
 };
+use serde_json::json;
 
 /// Answers a request for a path below the page's address.
 ///
@@ -48,6 +49,12 @@ pub(crate) fn answer(
     match path {
         "api/about.json" if reads => Ok(Answer::json(studio.about())),
         "api/about.json" => Ok(Answer::only("GET, HEAD")),
+        "api/batch.json" if reads => Ok(Answer::json(json!(studio.batch().progress()).to_string())),
+        "api/batch.json" if posts => {
+            studio.batch().stop();
+            Ok(Answer::json("{}"))
+        }
+        "api/batch.json" => Ok(Answer::only("GET, HEAD, POST")),
         "api/project.json" if reads => {
             let page = files::queried(&head.target, "page").unwrap_or_default();
             Ok(Answer::json(studio.project()?.state(page)?))

@@ -32,7 +32,7 @@ struct Step {
 }
 
 /// A file that commands find where the user has it.
-#[derive(Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Opened {
     /// Its path, or its name alone where it was dropped on the page.
     pub(crate) path: String,
@@ -54,6 +54,8 @@ pub(crate) enum Operation {
     },
     /// `asperity extract`
     Extract { library: Opened, texture: String },
+    /// `asperity build` of a list, and `asperity extract` from the library that it writes
+    Build { list: Opened, texture: String },
     /// `asperity compile`
     Compile { prompt: String, seed: u64 },
     /// `asperity edit`; a draft of it, or of a blend, has no picture
@@ -133,7 +135,12 @@ impl Recipe {
             return None;
         }
         let files = self.files();
-        let lines: Vec<String> = self.0.iter().filter_map(|step| step.line(&files)).collect();
+        let mut lines = Vec::new();
+        for step in &self.0 {
+            // Several textures may come from one list.
+            let build = step.operation.build().filter(|line| !lines.contains(line));
+            lines.extend(build.into_iter().chain(step.line(&files)));
+        }
         let writes = !matches!(self.0.last()?.operation, Operation::File(_));
         writes.then(|| lines.join("\n"))
     }
@@ -174,14 +181,8 @@ impl Step {
                 "asperity import {kind} {}{options} {to}",
                 path_word(&file.path)
             ),
-            Operation::Extract { library, texture } => {
-                let (library, word) = (path_word(&library.path), shell_word(texture));
-                if texture.starts_with('-') {
-                    format!("asperity extract {to} -- {library} {word}")
-                } else {
-                    format!("asperity extract {library} {word} {to}")
-                }
-            }
+            Operation::Extract { library, texture } => extract(&library.path, texture, &to),
+            Operation::Build { list, texture } => extract(&list.library(), texture, &to),
             Operation::Compile { prompt, seed } => {
                 let seed = match seed {
                     0 => String::new(),
@@ -227,6 +228,15 @@ impl Step {
     }
 }
 
+fn extract(library: &str, texture: &str, to: &str) -> String {
+    let (library, word) = (path_word(library), shell_word(texture));
+    if texture.starts_with('-') {
+        format!("asperity extract {to} -- {library} {word}")
+    } else {
+        format!("asperity extract {library} {word} {to}")
+    }
+}
+
 fn without_picture(draft: bool) -> &'static str {
     if draft { " --no-preview" } else { "" }
 }
@@ -244,9 +254,11 @@ impl Operation {
     /// The textures that it takes, by their names.
     pub(crate) fn others_mut(&mut self) -> Vec<&mut String> {
         match self {
-            Self::File(_) | Self::Import { .. } | Self::Extract { .. } | Self::Compile { .. } => {
-                Vec::new()
-            }
+            Self::File(_)
+            | Self::Import { .. }
+            | Self::Extract { .. }
+            | Self::Build { .. }
+            | Self::Compile { .. } => Vec::new(),
             Self::Edit { texture, .. } | Self::Encode { texture } => vec![texture],
             Self::Blend { a, b, .. } => vec![a, b],
             Self::Compose {
@@ -267,11 +279,21 @@ impl Operation {
 
     fn opened(&self) -> Option<&Opened> {
         match self {
-            Self::File(file) | Self::Import { file, .. } | Self::Extract { library: file, .. } => {
-                Some(file)
-            }
+            Self::File(file)
+            | Self::Import { file, .. }
+            | Self::Extract { library: file, .. }
+            | Self::Build { list: file, .. } => Some(file),
             _ => None,
         }
+    }
+
+    /// The command that writes the library of a list.
+    fn build(&self) -> Option<String> {
+        let Self::Build { list, .. } = self else {
+            return None;
+        };
+        let (path, library) = (path_word(&list.path), list.library());
+        Some(format!("asperity build {path} -o {}", path_word(&library)))
     }
 
     /// Returns true if a command line can hold it: arguments end at U+0000, and paths with control characters cannot be
@@ -291,6 +313,12 @@ impl Operation {
 }
 
 impl Opened {
+    /// The library that is written of a list.
+    fn library(&self) -> String {
+        let path = Path::new(&self.path).with_extension("aspl");
+        path.to_string_lossy().into_owned()
+    }
+
     /// Its name without the ending, if it is called an asset.
     fn asset_stem(&self) -> Option<&str> {
         let path = Path::new(&self.path);
