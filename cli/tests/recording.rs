@@ -19,7 +19,7 @@ const STROKES: [(f64, f64); 9] = [
 const STROKE: usize = 1200;
 
 /// [`table_with`] a friction of 0.3.
-fn table(strokes: usize) -> String {
+pub(super) fn table(strokes: usize) -> String {
     table_with(&STROKES[..strokes], |_| 0.3)
 }
 
@@ -75,7 +75,7 @@ fn table_with(strokes: &[(f64, f64)], mu_at: impl Fn(f64) -> f64) -> String {
     csv
 }
 
-fn description() -> String {
+pub(super) fn description() -> String {
     let mut text = "name = \"Oak\"\n[[file]]\npath = \"all.csv\"\nclock = \"t\"\n".to_owned();
     for (column, quantity, axis, unit) in [
         ("ax", "acceleration", "x", "m/s^2"),
@@ -93,7 +93,7 @@ fn description() -> String {
 }
 
 /// A working folder with the recording `oak` in it.
-fn recorded(table: &str, description: Option<&str>) -> TempDir {
+pub(super) fn recorded(table: &str, description: Option<&str>) -> TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let oak = folder.path().join("oak");
     fs::create_dir(&oak).expect("a folder");

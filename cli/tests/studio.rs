@@ -1,6 +1,9 @@
 //! `asperity studio` as a user starts it: one line with the address, the bytes of `compile`, a clean end.
 
-use super::*;
+use super::{
+    recording::{description, recorded, table},
+    *,
+};
 use serde_json::{Value, json};
 use std::{
     io::{BufRead as _, BufReader, Read as _, Write as _},
@@ -53,15 +56,20 @@ impl Running {
         answer
     }
 
-    /// The body of a good answer.
-    fn ask(&self, request: &str, body: &str) -> Vec<u8> {
+    /// The answer to a request below the page.
+    fn answer(&self, request: &str, body: &str) -> Vec<u8> {
         let (method, path) = request.split_once(' ').expect("a method and a path");
-        let mut answer = self.send(&format!(
+        self.send(&format!(
             "{method} {}{path} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\nContent-Length: {}\r\n\r\n{body}",
             self.page,
             self.host,
             body.len()
-        ));
+        ))
+    }
+
+    /// The body of a good answer.
+    fn ask(&self, request: &str, body: &str) -> Vec<u8> {
+        let mut answer = self.answer(request, body);
         assert!(answer.starts_with(b"HTTP/1.1 200 "), "{}", text(&answer));
         let end = answer.windows(4).position(|four| four == b"\r\n\r\n");
         answer.split_off(end.expect("a head") + 4)
@@ -296,4 +304,37 @@ fn a_missing_browser_is_a_warning_with_the_remedy() {
     for part in ["warning: ", "xdg-open", "open the address above by hand"] {
         assert!(said.contains(part), "{said}");
     }
+}
+
+#[test]
+fn a_recording_that_is_dropped_on_the_page_gives_the_bytes_of_the_command() {
+    let (table, description) = (table(9), description());
+    let folder = recorded(&table, Some(&description));
+    let folder = folder.path();
+    let studio = Running::start(folder, &[]);
+    let sent = |description: &str| {
+        let list = json!([
+            { "name": "all.csv", "bytes": table.len() },
+            { "name": "recording.toml", "bytes": description.len() },
+        ]);
+        format!("{list}\n{table}{description}")
+    };
+    let answer = studio.ask("POST api/folder?name=oak", &sent(&description));
+    let answer: Value = serde_json::from_slice(&answer).expect("JSON");
+    let texture = &answer["texture"];
+    let command = texture["command"].as_str().expect("a command");
+    assert_eq!(command, "asperity import recording oak -o Oak.asp");
+    good(folder, &["import", "recording", "oak", "-o", "Oak.asp"]);
+    let written = fs::read(folder.join("Oak.asp")).expect("an asset");
+    assert!(studio.file(texture, "asp") == written);
+
+    let wrong = sent(&description.replace("all.csv", "old.csv"));
+    let said = studio.answer("POST api/folder?name=oak", &wrong);
+    let said = text(&said);
+    let temporary = std::env::temp_dir().display().to_string();
+    assert!(
+        said.starts_with("HTTP/1.1 422 ") && said.contains("oak/"),
+        "{said}"
+    );
+    assert!(!said.contains(&temporary), "{said}");
 }

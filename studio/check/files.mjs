@@ -151,6 +151,24 @@ async function list({ page, errors }, { assert, asperity, folder, offline }) {
   assert((await page.$$(".notice")).length === 0 && (await page.$$(".cell")).length === 3, "a long one says how far it is, and can be stopped");
 }
 
+/** Folders, which a browser gives to a page where they are dropped by hand alone. */
+async function folders({ page, cdp, errors }, { assert, folder, offline }) {
+  const dropped = async (name, files) => {
+    mkdirSync(join(folder, name));
+    for (const [file, text] of Object.entries(files)) writeFileSync(join(folder, name, file), text);
+    const data = { items: [], files: [join(folder, name)], dragOperationsMask: 1 };
+    for (const type of ["dragEnter", "dragOver", "drop"]) await cdp.send("Input.dispatchDragEvent", { type, x: 300, y: 300, data });
+    await page.waitForSelector(`[data-key="open ${name}"]`);
+    return page.textContent(`[data-key="open ${name}"] p`);
+  };
+  const none = await dropped("pictures", { "a.png": "" });
+  assert(none.includes("asperity record-check"), `a folder that is no recording is refused: ${none}`);
+  const oak = await dropped("oak", { "recording.toml": "name = \"Oak\"\n[[file]]\npath = \"all.csv\"\n" });
+  assert(offline || oak.includes("oak/"), `one that is, is read as asperity import recording reads it: ${oak}`);
+  errors.splice(0);
+  for (const button of await page.$$(".notice button:last-child")) await button.click();
+}
+
 /** `offline` where the page comes from files alone. */
 export async function files(visit, { assert, asperity, work, offline = false }) {
   const folder = join(work, "files");
@@ -162,4 +180,5 @@ export async function files(visit, { assert, asperity, work, offline = false }) 
   await opened(visit, tools);
   await map(visit, tools);
   await list(visit, tools);
+  await folders(visit, tools);
 }

@@ -80,6 +80,14 @@ export class Server {
     return this.#json(`api/open?${new URLSearchParams({ name: file.name, ...stated })}`, options);
   }
 
+  /** A dropped folder, the files of a recording: { texture }. */
+  openFolder({ name, files }, signal) {
+    const list = files.map((file) => ({ name: file.name, bytes: file.size }));
+    const body = new Blob([`${JSON.stringify(list)}\n`, ...files]);
+    const options = { method: "POST", headers: { "Content-Type": "application/octet-stream" }, body, signal };
+    return this.#json(`api/folder?${new URLSearchParams({ name })}`, options);
+  }
+
   /** How far the list is that is compiled: { done, total }, of 0 where none is. */
   batch() {
     return this.#json("api/batch.json", {});

@@ -26,8 +26,9 @@
 //!    interface, each with its limit of bytes.
 //!
 //! What is compiled, mixed, opened or exported goes through the same calls as in the commands, so that bytes, reports and
-//! errors are theirs. A panic in one of these ends one request. Files that are dropped on the page stay in memory; a
-//! project alone is written to a disk, its files named by hashes. At most four large bodies are in memory at once, and no more requests compute at once than
+//! errors are theirs. A panic in one of these ends one request. Files that are dropped on the page stay in memory, but
+//! for those of a recording, which lie in a temporary folder while they are read; a
+//! project is written to a disk, its files named by hashes. At most four large bodies are in memory at once, and no more requests compute at once than
 //! there are processors.
 #![forbid(unsafe_code)]
 
@@ -42,6 +43,7 @@ mod difference;
 mod download;
 mod error;
 mod export;
+mod folder;
 mod guard;
 mod http;
 mod library_store;

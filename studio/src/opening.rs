@@ -93,11 +93,20 @@ fn textures(file: &str, bytes: Vec<u8>) -> Result<FileContent, ApiError> {
 }
 
 /// A file of another tool.
-fn import(imported: Imported, file: &str, bytes: &[u8]) -> Result<Texture, ApiError> {
-    let source = imported.source(PathBuf::from(file));
-    let command = (imported.name(), String::new());
-    let request = imported.request();
-    compiled(&*source, &request, Tools::default(), (file, bytes), command)
+fn import(kind: Imported, file: &str, bytes: &[u8]) -> Result<Texture, ApiError> {
+    let source = kind.source(PathBuf::from(file));
+    let tools = Tools {
+        given: Some((Path::new(file), bytes)),
+        ..Tools::default()
+    };
+    let command = (kind.name(), String::new());
+    compiled(
+        &*source,
+        &kind.request(),
+        tools,
+        (file, hash(bytes)),
+        command,
+    )
 }
 
 /// A picture of heights or normals, with what was stated of it, as `asperity import surface`.
@@ -115,30 +124,45 @@ pub(crate) fn surface(
         path: PathBuf::from(file),
         options,
     };
+    let words = stated
+        .iter()
+        .map(|(key, value)| format!(" --{} {}", key.replace('_', "-"), shell_word(value)));
+    let tools = Tools {
+        given: Some((Path::new(file), bytes)),
+        ..Tools::of(&loaded.compiler)
+    };
+    imported(
+        &source,
+        tools,
+        (file, hash(bytes)),
+        ("surface", words.collect()),
+    )
+}
+
+/// The texture of a source that stands for a file or a folder, by its name and what distinguishes it; `command` is the
+/// kind of `asperity import`, with the rest of its line.
+pub(crate) fn imported(
+    source: &dyn Source,
+    tools: Tools<'_>,
+    file: (&str, String),
+    command: (&str, String),
+) -> Result<Texture, ApiError> {
     let request = Request {
         fidelity: Fidelity::Auto,
         preview_px: Some(SIZE),
         ..Request::default()
     };
-    let words = stated
-        .iter()
-        .map(|(key, value)| format!(" --{} {}", key.replace('_', "-"), shell_word(value)));
-    let command = ("surface", words.collect());
-    let tools = Tools::of(&loaded.compiler);
-    compiled(&source, &request, tools, (file, bytes), command)
+    compiled(source, &request, tools, file, command)
 }
 
-/// The texture of a file that is given by name and bytes; `command` is the kind of `asperity import`, with the rest of
-/// its line.
 fn compiled(
     source: &dyn Source,
     request: &Request,
     tools: Tools<'_>,
-    (file, bytes): (&str, &[u8]),
+    (path, id): (&str, String),
     (kind, options): (&str, String),
 ) -> Result<Texture, ApiError> {
     let tools = Tools {
-        given: Some((Path::new(file), bytes)),
         clock: Clock(now),
         ..tools
     };
@@ -149,8 +173,8 @@ fn compiled(
         ..Making::default()
     };
     let opened = Opened {
-        path: file.to_owned(),
-        id: hash(bytes),
+        path: path.to_owned(),
+        id,
     };
     let operation = |_: &str| Operation::Import {
         kind: kind.to_owned(),

@@ -6,6 +6,7 @@ use crate::{
     collection::Collection,
     device::LiveDevice,
     error::ApiError,
+    folder::Folder,
     http::Status,
     library_store::{LibraryHandle, LibraryStore},
     limiter::Limiter,
@@ -190,6 +191,15 @@ impl Studio {
             FileContent::Texture(texture) => OpenedFile::Texture(self.keep(*texture)),
             FileContent::Library(library) => OpenedFile::Library(self.shelf.keep(*library)),
         })
+    }
+
+    /// Opens the files of a recording, and keeps the texture.
+    ///
+    /// # Errors
+    /// As `asperity import recording`, and without a prompt compiler.
+    pub(crate) fn open_recording(&self, folder: &Folder<'_>) -> Result<Arc<Texture>, ApiError> {
+        let texture = self.compute(|| folder.recording(self.prompts.get()?))?;
+        Ok(self.keep(texture))
     }
 
     /// The list of prompts that is compiled, if any.

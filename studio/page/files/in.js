@@ -9,9 +9,27 @@ import { askMap, isPicture } from "./map.js";
 /** Bytes that the server takes. */
 const MOST_BYTES = 64 * 2 ** 20;
 
+/** The entry of a folder that is dropped, or `null`. */
+function folderOf(item) {
+  const entry = item.webkitGetAsEntry?.();
+  return entry?.isDirectory ? entry : null;
+}
+
+/** The files that lie in a folder itself. */
+async function filesOf(folder) {
+  const reader = folder.createReader();
+  const files = [];
+  for (;;) {
+    // A browser gives some at a time.
+    const entries = await new Promise((done, failed) => reader.readEntries(done, failed));
+    if (entries.length === 0) return files;
+    const some = entries.filter(({ isFile, name }) => isFile && !name.startsWith("."));
+    files.push(...await Promise.all(some.map((entry) => new Promise((done, failed) => entry.file(done, failed)))));
+  }
+}
+
 /** Why a file is not even sent: { text, help }, or `null`. */
-function unfit(file, folder) {
-  if (folder) return { text: texts.files.folder(file.name), help: texts.files.folder_help };
+function unfit(file) {
   if (file.size > MOST_BYTES) return { text: texts.files.large(file.name, file.size / 2 ** 20), help: texts.files.large_help };
   return null;
 }
@@ -37,7 +55,7 @@ export class In {
     this.#followDrags();
   }
 
-  /** Opens files: [{ file, folder }]. */
+  /** Opens files, [{ file, folder }], where `folder` is the entry of one that was dropped. */
   async open(files) {
     this.#queue.push(...files);
     if (this.#busy) return;
@@ -49,7 +67,7 @@ export class In {
       find("opening").textContent = texts.files.opening(file.name, this.#done, this.#done + this.#queue.length);
       const key = `open ${file.name}`;
       withdraw(key);
-      const fault = unfit(file, folder) ?? (await this.#send(file));
+      const fault = folder ? await this.#tried(file, () => this.#sendFolder(folder)) : unfit(file) ?? (await this.#tried(file, () => this.#send(file)));
       if (fault) notify(key, fault);
       else announce(texts.files.opened(file.name));
     }
@@ -57,20 +75,35 @@ export class In {
     this.#busy = false;
   }
 
-  /** Shows what is in a file; gives what went wrong, or `null`. */
+  /** Shows the texture of a recording, whose files a folder holds. */
+  async #sendFolder(folder) {
+    const { server, loader } = this.#parts;
+    const { name } = folder;
+    const files = await filesOf(folder);
+    const isRecording = files.some((file) => file.name === "recording.toml");
+    if (!isRecording) throw new Refusal(texts.files.folder(name), texts.files.folder_help);
+    const bytes = await Promise.all(files.map(async (file) => new File([await file.arrayBuffer()], file.name)));
+    const { texture } = await server.openFolder({ name, files: bytes });
+    await loader.take(async () => texture, { kind: "open", name });
+  }
+
+  /** Shows what is in a file. */
   async #send(file) {
     const { server, loader, gallery } = this.#parts;
+    // A file that cannot be read would look like a server that does not answer.
+    const body = new File([await file.arrayBuffer()], file.name);
+    const stated = isPicture(file) ? await askMap(file) : {};
+    if (!stated) return;
+    const asked = server.open(body, stated);
+    const opened = await (isList(file) ? watched(server, file, asked) : asked);
+    if (opened?.library) await gallery.add(opened.library);
+    else if (opened) await loader.take(async () => opened.texture, { kind: "open", name: file.name });
+  }
+
+  /** What went wrong, or `null`. */
+  async #tried(file, send) {
     try {
-      // A file that cannot be read would look like a server that does not answer.
-      const body = new File([await file.arrayBuffer()], file.name);
-      const stated = isPicture(file) ? await askMap(file) : {};
-      if (!stated) return null;
-      const asked = server.open(body, stated);
-      const opened = await (isList(file) ? watched(server, file, asked) : asked);
-      if (!opened) return null;
-      const { texture, library } = opened;
-      if (library) await gallery.add(library);
-      else await loader.take(async () => texture, { kind: "open", name: file.name });
+      await send();
       return null;
     } catch (error) {
       if (error instanceof DOMException) return { text: texts.files.unread(file.name), help: texts.files.unread_help };
@@ -101,7 +134,7 @@ export class In {
       event.preventDefault();
       show(0);
       const items = [...event.dataTransfer.items].filter(({ kind }) => kind === "file");
-      this.open(items.map((item) => ({ file: item.getAsFile(), folder: item.webkitGetAsEntry?.()?.isDirectory ?? false }))
+      this.open(items.map((item) => ({ file: item.getAsFile(), folder: folderOf(item) }))
         .filter(({ file }) => file));
     });
   }

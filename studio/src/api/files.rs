@@ -5,6 +5,7 @@ use crate::{
     about::Library,
     download::Download,
     error::ApiError,
+    folder::Folder,
     http::{Answer, Body, Content, Head, Keep, Status},
     packing,
     studio::{OpenedFile, Studio},
@@ -54,6 +55,21 @@ pub(super) fn open(
         OpenedFile::Texture(texture) => format!("{{\"texture\":{}}}", studio.shown(&texture)),
         OpenedFile::Library(named) => json!({ "library": Library::of(&named) }).to_string(),
     }))
+}
+
+/// Opens a folder: `{texture}`.
+pub(super) fn open_folder(
+    studio: &Studio,
+    head: &Head,
+    body: &mut Body<'_, '_>,
+) -> Result<Answer, ApiError> {
+    let name = file_name(&head.target)?;
+    let texture = studio.send(|| {
+        let bytes = body.read(FILE_BYTES)?;
+        studio.open_recording(&Folder::parse(&name, &bytes)?)
+    })?;
+    let shown = studio.shown(&texture);
+    Ok(Answer::json(format!("{{\"texture\":{shown}}}")))
 }
 
 /// What the page shows of a texture, `ID.page.json`, or a file of it, `ID.ENDING`.

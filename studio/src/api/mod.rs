@@ -69,12 +69,15 @@ pub(crate) fn answer(
             let found = requests::link(studio, &body.read(requests::JSON_BYTES)?)?;
             Ok(Answer::json(found))
         }
+        "api/folder" if posts => files::open_folder(studio, head, body),
         "api/open" if posts => files::open(studio, head, body),
         "api/pack" if posts => files::pack(studio, body),
         "api/device/ticks" if reads => device::requests::ticks(studio.device(), &head.target),
         "api/device/ticks" => Ok(Answer::only("GET, HEAD")),
         "api/device/play" if posts => play(studio, body),
-        "api/link" | "api/open" | "api/pack" | "api/device/play" => Ok(Answer::only("POST")),
+        "api/link" | "api/folder" | "api/open" | "api/pack" | "api/device/play" => {
+            Ok(Answer::only("POST"))
+        }
         _ => match path.strip_prefix("api/texture/") {
             Some(file) if reads => files::download(studio, file),
             Some(_) => Ok(Answer::only("GET, HEAD")),
