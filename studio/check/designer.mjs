@@ -7,7 +7,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { downloaded, run } from "./aid.mjs";
 import { assert, chromium } from "./chromium.mjs";
-import { begun } from "./studio.mjs";
+import { serve } from "./served.mjs";
 import { after, bytesOf, written } from "./steering.mjs";
 
 const [executablePath] = process.argv.slice(2);
@@ -29,9 +29,9 @@ const click = (selector, options) => {
 try {
   let seconds = Infinity;
   for (let n = 0; n < BEGINNINGS && seconds >= 2; n++) {
-    await studio?.kill();
-    project = ["--project", join(work, `desk-${n}`)];
-    studio = await begun(asperity, project);
+    await studio?.end();
+    project = ["--no-open", "--project", join(work, `desk-${n}`)];
+    studio = await serve(work, project);
     await page.goto(studio.address);
     const opened = Date.now();
     clicks = 0;
@@ -60,8 +60,8 @@ try {
   assert(bytes.equals(readFileSync(join(work, "three.aspl"))), "it has the bytes of the commands below the surface");
 
   await page.waitForTimeout(300);
-  await studio.kill();
-  studio = await begun(asperity, project);
+  await studio.end("SIGKILL");
+  studio = await serve(work, project);
   await page.goto(studio.address);
   await page.waitForFunction(() => document.querySelectorAll(".kept li").length === 3);
   assert((await page.$$eval(".kept-name", (all) => all.map(({ value }) => value))).join() === [...names].reverse().join()
@@ -73,7 +73,7 @@ try {
   await page.click("#take-button");
   const link = await page.textContent(".link-row code");
   await page.keyboard.press("Escape");
-  elsewhere = await begun(asperity, ["--project", join(work, "elsewhere")]);
+  elsewhere = await serve(work, ["--no-open", "--project", join(work, "elsewhere")]);
   const theirs = await context.newPage();
   await theirs.goto(elsewhere.address + link);
   const here = await after(theirs, async () => {}, ({ told }) => told.includes("soft velvet"));
@@ -98,6 +98,6 @@ try {
   assert(true, "and nothing of it is lost");
 } finally {
   await browser.close();
-  for (const each of [studio, elsewhere]) await each?.kill();
+  for (const each of [studio, elsewhere]) await each?.end();
   rmSync(work, { recursive: true, force: true });
 }

@@ -6,8 +6,8 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { assert, chromium } from "./chromium.mjs";
 import { numbers } from "./expect.mjs";
+import { serve } from "./served.mjs";
 import { after, bytesOf, shown } from "./steering.mjs";
-import { begun } from "./studio.mjs";
 import { Visit } from "./visit.mjs";
 
 const [executablePath, kills = "2"] = process.argv.slice(2);
@@ -16,10 +16,10 @@ const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "
 
 /** A studio with the project, and a visit of its page. */
 async function begin() {
-  const studio = await begun(process.env.ASPERITY, ["--project", join(folder, "own")]);
+  const studio = await serve(folder, ["--no-open", "--project", join(folder, "own")]);
   const visit = await Visit.begin(browser, studio.address);
   return { visit, end: async () => {
-    await studio.kill();
+    await studio.end("SIGKILL");
     await visit.end();
   } };
 }

@@ -15,7 +15,7 @@ export function library(folder, prompts = KINDS) {
   return { file: join(folder, "some.aspl"), names: textures.map(({ name }) => name) };
 }
 
-/** A studio, started with `given`, and with `variables` in its environment: { address, end }. */
+/** A studio, started with `given`, and with `variables` in its environment: { address, end }; `end` takes a signal. */
 export async function serve(folder, given, variables = {}) {
   const studio = spawn(process.env.ASPERITY, ["studio", ...given, "--port", "0", "--quiet"],
     { env: { ...process.env, XDG_DATA_HOME: folder, ...variables } });
@@ -24,5 +24,5 @@ export async function serve(folder, given, variables = {}) {
     studio.stdout.once("data", (text) => done(String(text).trim()));
     studio.stderr.on("data", (text) => failed(new Error(String(text))));
   });
-  return { address, end: () => (studio.kill(), ended) };
+  return { address, end: (signal) => (studio.kill(signal), ended) };
 }

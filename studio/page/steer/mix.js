@@ -12,6 +12,8 @@ export class Mix {
   #parts;
   #compare;
   #live;
+  #drawer = find("change-drawer");
+  #words = element("datalist", { id: "mix-words" });
   #error = element("div", { class: "error", role: "alert" });
   #t = element("input", { type: "range", id: "mix-t", min: 0, max: 1, step: 0.01, value: 0.5 });
   #t_text = element("output", { for: "mix-t" });
@@ -29,13 +31,12 @@ export class Mix {
     this.#composed = Object.fromEntries(PARTS.map((name) => [name, choice(name, texts.steer.mix.compose_of[name])]));
     const [a, b] = this.#blended;
     const group = (title, ...children) => element("fieldset", {}, element("legend", {}, title), ...children);
-    const words = element("datalist", { id: "mix-words" });
     find("mix").append(
       group(texts.steer.mix.blend, a.element, b.element,
         element("div", { class: "slider" }, element("label", { for: "mix-t" }, texts.steer.mix.t), this.#t_text, this.#t)),
-      group(texts.steer.mix.compose, ...PARTS.map((name) => this.#composed[name].element), this.#compose), this.#error, words);
+      group(texts.steer.mix.compose, ...PARTS.map((name) => this.#composed[name].element), this.#compose), this.#error, this.#words);
     new Held(this.#t, { moved: () => this.#moves(), released: () => this.#settles() });
-    state.on(["about"], ({ about }) => words.replaceChildren(...(about?.words ?? []).map((word) => element("option", { value: word }))));
+    this.#drawer.addEventListener("toggle", () => this.#offer());
     session.on("change", () => {
       showRefusal(this.#error, null);
       this.#offer();
@@ -51,7 +52,10 @@ export class Mix {
   }
 
   #offer() {
-    const { session } = this.#parts;
+    // Thousands of words, and every texture of the session five times: as long as nobody sees them, they are not there.
+    if (!this.#drawer.open) return;
+    const { session, state } = this.#parts;
+    if (!this.#words.firstChild) this.#words.append(...(state.get("about")?.words ?? []).map((word) => element("option", { value: word })));
     const slots = this.#compare.filled.map(({ letter, entry }) => ({ label: `${letter}: ${describe(entry)}`, texture: entry.texture }));
     const { entries, at } = session;
     const [now, before] = [entries[at]?.texture, entries[at - 1]?.texture];
