@@ -16,15 +16,6 @@ export function element(tag, attributes = {}, ...children) {
   return made;
 }
 
-const text = (key) => key.split(".").reduce((at, part) => at[part], texts);
-
-/** Fills in the texts that `index.html` names. */
-export function fillTexts() {
-  for (const made of document.querySelectorAll("[data-text]")) made.textContent = text(made.dataset.text);
-  for (const made of document.querySelectorAll("[data-label]")) made.setAttribute("aria-label", text(made.dataset.label));
-  for (const made of document.querySelectorAll("[data-placeholder]")) made.placeholder = text(made.dataset.placeholder);
-}
-
 /** Has a screen reader say something that the eye sees anyway. */
 export const announce = (said) => (find("announcement").textContent = said);
 

@@ -3,7 +3,7 @@
 import { startBeginning } from "./begin.js";
 import { startDevicePanel } from "./device/panel.js";
 import { startDrawers } from "./drawers.js";
-import { fillTexts, find, notify, recall, remember } from "./dom.js";
+import { find, notify, recall, remember } from "./dom.js";
 import { Events } from "./events.js";
 import { In } from "./files/in.js";
 import { Out } from "./files/out.js";
@@ -68,7 +68,6 @@ const broken = () => notify("broken", { text: texts.broken, help: texts.broken_h
 addEventListener("error", broken);
 addEventListener("unhandledrejection", broken);
 
-fillTexts();
 startTheme();
 startDrawers();
 const surface = new Surface();

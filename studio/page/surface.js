@@ -125,7 +125,7 @@ export class Surface extends Events {
     if (this.#layer instanceof Lit) {
       // A driver that fails once may fail again; the plain picture always works.
       canvas.addEventListener("webglcontextlost", () => this.#begin(false));
-    } else find("stage-hint").textContent = `${texts.surface.hint} ${texts.surface.plain}`;
+    } else find("stage-hint").append(" ", texts.surface.plain);
     this.#canvas?.remove();
     this.#canvas = canvas;
     this.stage.prepend(canvas);

@@ -1,4 +1,4 @@
-// Every text of the page, in English. Functions take what they name.
+// The texts of the page that change, in English; `index.html` has the others. Functions take what they name.
 
 import { texts as plots } from "./plots/texts.js";
 import { files } from "./texts/files.js";
@@ -17,7 +17,6 @@ export const texts = {
   own,
   chosen,
   files,
-  live: "Live plots",
   keys: {
     title: "Keys",
     close: "Close",
@@ -26,7 +25,6 @@ export const texts = {
       ["1 to 4", "switch the slots of the comparison"], ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"], ["K", "keeps the texture in my library"], ["?", "shows and hides this list"],
       ["↑ in the prompt", "brings earlier prompts"], ["Escape in the prompt", "gives up what takes long"]],
   },
-  title: "Asperity Studio",
   titled: (name) => `${name} – Asperity Studio`,
   edition: (version, library, project) => [library && `${library.name}, ${number(library.textures, 0)} textures`,
     project && `project ${project}`, version].filter(Boolean).join(" · "),
@@ -34,13 +32,9 @@ export const texts = {
   theme: { auto: "Theme: system", light: "Theme: light", dark: "Theme: dark" },
 
   prompt: {
-    label: "Describe a surface",
-    placeholder: "rough abrasive sheet with gritty particles",
     compile: "Compile",
     compiling: "Compiling …",
     cancel: "Cancel",
-    hint: "↑ brings earlier prompts",
-    suggestions: "Known materials and qualities",
     suggested: (count) => (count === 1 ? "1 suggestion" : `${count} suggestions`),
     none: "This server compiles no prompts: pick a texture in the gallery, or open a file.",
     empty: "Describe a surface first, such as “wet ice”.",
@@ -50,7 +44,6 @@ export const texts = {
   },
 
   reading: {
-    label: "What the words were taken for",
     words: "What each word was taken for, and how far it moved the texture, in steps of 100",
     roles: {
       name: "material", number: "number", quality: "quality", degree: "degree", word: "word", object: "carries it", denied: "denied", tool: "tool",
@@ -70,8 +63,6 @@ export const texts = {
   },
 
   nearest: {
-    drawer: "Nearest materials and earlier prompts",
-    title: "Nearest materials",
     none: "Compile a prompt to see what it lies near.",
     opened: "Neighbours are found for prompts; this texture was edited, mixed or opened.",
     compile: (name, percent) => `Compile “${name}”, ${percent} % of the texture`,
@@ -79,20 +70,12 @@ export const texts = {
   },
 
   history: {
-    title: "Earlier prompts",
-    forget: "Forget all",
     none: "None yet.",
     compile: (prompt) => `Compile “${prompt}” again`,
   },
 
   surface: {
     empty: "No texture yet",
-    label: "Surface to stroke",
-    hint: "Drag to stroke it, press to tap; ? shows the keys.",
-    zoom: "Zoom",
-    zoom_in: "Zoom in",
-    zoom_out: "Zoom out",
-    zoom_reset: "Reset",
     scale: (mm) => (mm >= 10 ? `${number(mm / 10, 0)} cm` : `${number(mm, mm < 1 ? 1 : 0)} mm`),
     kilobytes: (bytes) => `${number(bytes / 1000, 1)} kB`,
     rate: (hz) => `${number(hz, 0)} Hz`,
@@ -109,7 +92,6 @@ export const texts = {
   },
 
   readout: {
-    drawer: "Numbers and command line",
     speed: "Speed", force: "Force", depth: "Depth", friction: "Friction", vibration: "Vibration",
     speed_unit: "mm/s", force_unit: "N", depth_unit: "mm", friction_unit: "N", vibration_unit: "m/s² RMS",
     none: "–",
@@ -136,14 +118,10 @@ export const texts = {
   },
 
   hand: {
-    title: "Hand",
-    force: "Force",
     force_text: (newtons) => `${number(newtons, 1)} N`,
     from_slider: "From this slider; Shift doubles it.",
     from_pressure: (full_n) => `From your pen’s pressure, up to ${number(full_n, 1)} N; the slider serves keys.`,
-    auto: "Let a hand move by itself",
     paths: { circle: "Circles", line: "To and fro", tap: "Taps" },
-    speed: "Speed",
     speed_text: (mm_s) => `${number(mm_s, 0)} mm/s`,
     start: "Start the hand",
     stop: "Stop the hand",

@@ -3,13 +3,14 @@
 
 use crate::{
     about::{MODULE, OFFERED, Served},
+    bundle,
     collection::Collection,
     download::Download,
     error::ApiError,
     http::PAGE_POLICY,
     library_store::LibraryHandle,
     module::Module,
-    page::{self, File},
+    page,
     prompts::LoadPrompts,
     studio::Studio,
 };
@@ -92,8 +93,8 @@ pub fn export(
         files: AtomicUsize::new(0),
         bytes: AtomicU64::new(0),
     };
-    for file in page::FILES {
-        writer.write(file.name, &exported(file))?;
+    for (name, bytes) in bundle::files() {
+        writer.write(name, &exported(name, bytes))?;
     }
     let textures = collection.textures();
     let (module, load) = module.unzip();
@@ -176,11 +177,11 @@ impl Writer {
 }
 
 /// A file of the page, as a static server gives it.
-fn exported(file: &File) -> Vec<u8> {
-    if file.name != page::INDEX {
-        return file.bytes.to_vec();
+fn exported(name: &str, bytes: Vec<u8>) -> Vec<u8> {
+    if name != page::INDEX {
+        return bytes;
     }
-    let page = String::from_utf8_lossy(file.bytes);
+    let page = String::from_utf8_lossy(&bytes);
     let policy = format!(
         "<meta http-equiv=\"Content-Security-Policy\" content=\"{PAGE_POLICY}\">\n  {BEFORE_POLICY}"
     );

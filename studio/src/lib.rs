@@ -36,6 +36,7 @@ mod about;
 mod api;
 mod batch;
 mod browser;
+mod bundle;
 mod collection;
 mod connections;
 mod device;

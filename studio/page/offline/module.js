@@ -32,7 +32,7 @@ export class Module extends Events {
 
   #start() {
     if (this.#worker) return this.#started;
-    this.#worker = new Worker(new URL("worker.js", import.meta.url));
+    this.#worker = new Worker(new URL("offline/worker.js", document.baseURI));
     this.#started = new Promise((resolve, reject) => this.#waiting.push({ resolve, reject }));
     this.#worker.addEventListener("message", ({ data }) => this.#hear(data));
     this.#worker.addEventListener("error", ({ message }) => this.#fail(message));

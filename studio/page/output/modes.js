@@ -1,7 +1,8 @@
 // What the sound is for. A mode prepares what the renderer gives for ears or actuators, and says where it goes.
 
 /** Corners of what fingers feel and voice coils play, Hz. */
-export const [LOW_HZ, HIGH_HZ] = [20, 500];
+export const LOW_HZ = 20;
+export const HIGH_HZ = 500;
 /** Pole pairs of a Butterworth filter of the fourth order. */
 const FOURTH_ORDER = [0.541196, 1.306563];
 /** By how much the mode for headphones raises every component, Hz. */

@@ -39,7 +39,7 @@ export class Controls {
 
 /** A table as a Blob, written by a worker: half a million rows would hold the page up for seconds. */
 function written(table, { ring, tick_hz }) {
-  const worker = new Worker(new URL("csv.js", import.meta.url), { type: "module" });
+  const worker = new Worker(new URL("plots/csv.js", document.baseURI), { type: "module" });
   return new Promise((done, failed) => {
     worker.onmessage = ({ data }) => done(data);
     worker.onerror = ({ message }) => failed(new Error(message));

@@ -45,7 +45,7 @@ let kept;
 
 async function written(name, tick_hz) {
   if (name === "trajectory") return trajectoryCsv(kept, tick_hz);
-  const module = await fetch(new URL("../asperity.wasm", import.meta.url));
+  const module = await fetch(new URL("../asperity.wasm", location.href));
   const { instance } = await WebAssembly.instantiate(await module.arrayBuffer());
   return renderedCsv(kept, tick_hz, instance.exports);
 }

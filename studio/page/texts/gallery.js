@@ -4,7 +4,6 @@ import { apart, number } from "./number.js";
 
 export const gallery = {
   title: "Gallery",
-  views: "What stands beside the surface",
   view: { prompt: "Prompt", gallery: "Gallery" },
   library: "Library",
   named: (name, count) => `${name}, ${number(count, 0)} ${count === 1 ? "texture" : "textures"}`,
@@ -85,7 +84,6 @@ export const gallery = {
 };
 
 export const own = {
-  drawer: "My library",
   title: "My library",
   star: { true: "★ Kept", false: "☆ Keep" },
   star_title: "Keeps this texture in my library (K)",

@@ -3,26 +3,19 @@
 import { number } from "./number.js";
 
 export const sound = {
-  title: "Sound",
   start: "Start sound",
   starting: "Starting …",
   stop: "Stop sound",
   off: "Off; a touch of the surface starts it.",
   latency: (ms) => `latency ${number(ms, 0)} ms`,
-  level: "Level",
   level_text: (db) => `${db > 0 ? "+" : db < 0 ? "−" : ""}${number(Math.abs(db), 0)} dB`,
-  equal: "All equally loud",
   equal_title: "Turns every texture to the same level above 40 Hz in a stroke of 100 mm/s under 1 N; off, each is as strong as it is. "
     + "Devices, files and forces keep its strength.",
   turned: (db) => `turned ${db < 0 ? "down" : "up"} by ${number(Math.abs(db), 0)} dB`,
-  meter: "Output level in dB of full scale",
   meter_text: (db) => (db <= -60 ? "silent" : `peak −${number(Math.abs(db), 0)} dBFS`),
   limiting: "limiting",
-  settings: "Sound settings",
-  device: "Output",
   default_device: "System default",
   device_number: (number) => `Output ${number}`,
-  find_devices: "Find devices …",
   find_help: "Browsers name sound devices only to pages that may use the microphone. Allow it once; nothing is recorded.",
   no_choice: "System default (this browser has no choice)",
   denied: "The browser did not allow access to the list of sound devices.",
@@ -48,7 +41,6 @@ export const sound = {
 };
 
 export const device = {
-  title: "Device",
   name: (name, hz) => `${name}, ${number(hz, 0)} Hz`,
   states: { safe: "Safe state: the force goes to zero", ramping: "The force comes back", contact: "In contact",
     free: "In the air", ended: "The loop has ended" },

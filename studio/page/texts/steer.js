@@ -3,9 +3,6 @@
 import { number } from "./number.js";
 
 export const steer = {
-  panel: "Session and comparison",
-  change: "Change in words, blend and compose",
-  title: "How it feels",
   finer: "Finer",
   axes: { rough: "Rough", slippery: "Slippery", hard: "Hard", sharp: "Sharp" },
   place: (place) => number(place, 0),
