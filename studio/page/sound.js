@@ -3,10 +3,10 @@
 import { Events } from "./events.js";
 import { now_s } from "./hand.js";
 import { buildChain, FADE_S } from "./output/chain.js";
-import { levelOf, MOST_UP_DB, TARGET_DB, trimOf } from "./output/loudness.js";
+import { openContext, SoundFailure } from "./output/context.js";
+import { Loudness } from "./output/loudness.js";
 import { MODES } from "./output/modes.js";
 
-const RATE_HZ = 48000;
 /** How long a browser may take to start, ms, until that is said. */
 const PATIENCE_MS = 3000;
 
@@ -15,15 +15,6 @@ const CROSS_FADE_S = 0.05;
 
 /** When a fade has ended. */
 const silence = () => new Promise((done) => setTimeout(done, 4000 * FADE_S));
-
-/** Why the sound does not start or has stopped. */
-export class SoundFailure extends Error {
-  /** `kind`: "no_worklet", "wrong_rate", "no_device" or "failed". */
-  constructor(kind, detail) {
-    super(kind);
-    Object.assign(this, { kind, detail });
-  }
-}
 
 /**
  * Emits "state"; "failure" with a `SoundFailure`; "loaded" and "refused" with the renderer's status of a texture; "louder"
@@ -47,13 +38,7 @@ export class Sound extends Events {
   chain = null;
   #context = null;
   #gains_db = null;
-  #equal = true;
-  /** What plays, and what its sliders began at. */
-  #texture = null;
-  #base = null;
-  #trim_db = 0;
-  /** Level of what was played last, as strong as it is, dB. */
-  #strength_db = TARGET_DB - MOST_UP_DB;
+  #loudness = new Loudness();
   /** While the nodes are built. */
   #building = null;
   #path = null;
@@ -135,18 +120,17 @@ export class Sound extends Events {
 
   /** Whether all textures are equally loud, rather than each as strong as it is. */
   get equal() {
-    return this.#equal;
+    return this.#loudness.equal;
   }
 
   set equal(equal) {
-    this.#equal = equal;
-    this.#strength_db = levelOf(this.#texture) ?? this.#strength_db;
-    this.#trim();
+    this.#loudness.equal = equal;
+    this.chain?.trim(this.trim_db);
   }
 
   /** What plays is turned up or down by this, dB. */
   get trim_db() {
-    return this.#trim_db;
+    return this.#loudness.trim_db;
   }
 
   /** Gains of the equaliser, dB. */
@@ -158,28 +142,11 @@ export class Sound extends Events {
   /** Plays another texture: from its first tick on, or by a cross-fade where one plays; `base` is what its sliders began at. */
   play(asset, texture, base = texture) {
     this.#asset = asset;
-    this.#texture = texture;
-    this.#base = base;
-    this.#follow();
-    this.#trim(true);
+    const { rises, louder_db } = this.#loudness.play(texture, base);
+    if (louder_db > 0) this.emit("louder", louder_db);
+    // What gets quieter does so before the cross-fade, and what gets louder after it.
+    if (!rises) this.chain?.trim(this.trim_db);
     if (this.chain) this.#send();
-  }
-
-  /** Where textures are as strong as they are, none comes as a shock. */
-  #follow() {
-    const level_db = levelOf(this.#texture);
-    if (level_db === null) return;
-    const louder_db = level_db - this.#strength_db - MOST_UP_DB;
-    this.#strength_db = level_db;
-    if (!this.#equal && louder_db > 0) this.emit("louder", louder_db);
-  }
-
-  /** What `changes` to another texture gets quieter before the cross-fade, and louder after it. */
-  #trim(changes = false) {
-    const trim_db = this.#equal && this.#texture ? trimOf(this.#texture, this.#base) : 0;
-    const waits = changes && trim_db > this.#trim_db;
-    this.#trim_db = trim_db;
-    if (!waits) this.chain?.trim(trim_db);
   }
 
   /** Events of the hand; nobody hears them while the sound is off. The touch that starts it is felt when it is on. */
@@ -220,10 +187,7 @@ export class Sound extends Events {
   }
 
   async #build() {
-    if (!globalThis.AudioContext || !globalThis.AudioWorkletNode) throw new SoundFailure("no_worklet");
-    const context = new AudioContext({ sampleRate: RATE_HZ, latencyHint: "interactive" });
-    this.#context = context;
-    if (context.sampleRate !== RATE_HZ) throw new SoundFailure("wrong_rate", context.sampleRate);
+    const context = openContext((opened) => (this.#context = opened));
     // Within the gesture, before anything is awaited.
     if (this.state === "starting") context.resume().catch(() => {});
     context.onerror = () => this.#fail(new SoundFailure("no_device"));
@@ -234,7 +198,7 @@ export class Sound extends Events {
     this.chain = chain;
     this.#loaded = false;
     chain.mode = this.mode;
-    chain.trim(this.#trim_db);
+    chain.trim(this.trim_db);
     if (this.#gains_db) chain.equaliser.gains_db = this.#gains_db;
     const { renderer, limiter } = chain;
     renderer.port.onmessage = ({ data }) => this.#heard(data);
@@ -269,7 +233,7 @@ export class Sound extends Events {
     if (about === "module" && name === "ok") this.latency_s = latency_s;
     else if (about === "load" || about === "swap") {
       if (name === "ok") {
-        if (message.id === this.#sent) this.chain.trim(this.#trim_db, CROSS_FADE_S);
+        if (message.id === this.#sent) this.chain.trim(this.trim_db, CROSS_FADE_S);
         this.emit("loaded", message);
       }
       // A later texture took its place.

@@ -27,7 +27,7 @@ pub(crate) const FILES: &[File] = files! {
         "steer/steer.css";
     "text/javascript; charset=utf-8":
         "auto.js" "begin.js" "devices.js" "dom.js" "drawers.js" "events.js" "force.js" "hand-panel.js" "hand.js" "keys.js" "limiter.js"
-        "links.js" "lit.js" "loader.js" "path.js" "pointer.js" "project.js" "prompt-history.js" "prompt.js" "reading.js" "readout.js"
+        "links.js" "lit.js" "loader.js" "path.js" "pointer.js" "project.js" "prompt-history.js" "prompt.js" "reading.js" "readout.js" "recorder.js"
         "server.js" "sound-panel.js" "sound.js" "studio.js" "suggest.js" "surface.js" "texts.js" "texture-panels.js"
         "view.js" "worklet.js"
         "device/feed.js" "device/jitter.js" "device/panel.js"
@@ -36,7 +36,7 @@ pub(crate) const FILES: &[File] = files! {
         "gallery/library.js" "gallery/scatter.js" "gallery/span.js" "gallery/thumbnails.js" "gallery/views.js"
         "library/own.js" "library/panel.js"
         "offline/module.js" "offline/offline.js" "offline/worker.js"
-        "output/chain.js" "output/equaliser-panel.js" "output/equaliser.js" "output/loudness.js" "output/modes.js" "output/motors.js"
+        "output/chain.js" "output/context.js" "output/equaliser-panel.js" "output/equaliser.js" "output/loudness.js" "output/modes.js" "output/motors.js"
         "output/panel.js" "output/response.js" "output/shift.js" "output/tones.js"
         "plots/axes.js" "plots/controls.js" "plots/csv.js" "plots/fft.js" "plots/field.js"
         "plots/figure.js" "plots/force.js" "plots/friction.js" "plots/models.js" "plots/plane-pointer.js"

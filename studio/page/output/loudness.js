@@ -22,3 +22,44 @@ export function trimOf(texture, base = texture) {
   const trim_db = Math.min(TARGET_DB - (base_db ?? own_db), TARGET_DB + MOST_UP_DB - own_db);
   return Math.min(Math.max(trim_db, -MOST_TRIM_DB), MOST_TRIM_DB);
 }
+
+/** What turns the textures that play, one after the other. */
+export class Loudness {
+  /** What plays is turned up or down by this, dB. */
+  trim_db = 0;
+  #equal = true;
+  #texture = null;
+  #base = null;
+  /** Level of what was played last, as strong as it is, dB. */
+  #level_db = TARGET_DB - MOST_UP_DB;
+
+  /** Whether all textures are equally loud, rather than each as strong as it is. */
+  get equal() {
+    return this.#equal;
+  }
+
+  set equal(equal) {
+    this.#equal = equal;
+    this.#level_db = levelOf(this.#texture) ?? this.#level_db;
+    this.#trim();
+  }
+
+  /**
+   * Takes the next texture, whose sliders began at `base`: whether it is turned up from the one before, and by how much the
+   * level has to go down for it, dB. Where textures are as strong as they are, none comes as a shock.
+   */
+  play(texture, base) {
+    this.#texture = texture;
+    this.#base = base;
+    const level_db = levelOf(texture);
+    const louder_db = level_db === null ? 0 : level_db - this.#level_db - MOST_UP_DB;
+    this.#level_db = level_db ?? this.#level_db;
+    const before_db = this.trim_db;
+    this.#trim();
+    return { rises: this.trim_db > before_db, louder_db: this.#equal ? 0 : Math.max(louder_db, 0) };
+  }
+
+  #trim() {
+    this.trim_db = this.#equal && this.#texture ? trimOf(this.#texture, this.#base) : 0;
+  }
+}
