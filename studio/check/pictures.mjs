@@ -1,4 +1,4 @@
-// Draws the pictures of the studio, `studio-STATE-light.png` and `-dark.png`, and the frames of the README's animation:
+// Draws the pictures of docs/studio.md, `studio-STATE-SCHEME.png`, and the frames of the README's animation:
 //
 //   STUDIO_MODULES=…/node_modules node pictures.mjs ADDRESS CHROMIUM FOLDER [FRAMES]
 //
@@ -23,6 +23,9 @@ async function compile(page, prompt) {
   await shown(page, prompt);
 }
 
+/** What is drawn in which colours. */
+const SHOWN = { light: ["desk", "library", "scatter"], dark: ["plots", "gallery"] };
+
 /** Each brings the page from the state before it to its own. */
 const STATES = {
   start: async (page) => {
@@ -42,31 +45,25 @@ const STATES = {
     });
     await page.waitForTimeout(4000);
   },
-  steering: async (page) => {
+  library: async (page) => {
     await page.locator("#live-drawer").evaluate((live) => (live.open = false));
     await page.click("#auto");
-    await page.locator("#change-drawer").evaluate((drawer) => (drawer.open = true));
-    await page.fill("#words", "less gritty, more waxy");
-    await page.press("#words", "Enter");
-    await page.waitForFunction(() => document.querySelector("#words-understood").textContent);
-    await page.locator("#change-drawer").evaluate((drawer) => drawer.scrollIntoView({ block: "end" }));
-  },
-  compare: async (page) => {
-    await page.locator("#change-drawer").evaluate((drawer) => (drawer.open = false));
     for (const [n, prompt] of SLOTS.entries()) {
       await compile(page, prompt);
       await page.locator("#compare .slot").nth(n).click();
+      await page.click("#keep");
     }
-    await page.locator("#compare").evaluate((slots) => slots.scrollIntoView({ block: "end" }));
-    await page.waitForTimeout(1500);
-  },
-  files: async (page) => {
-    await page.evaluate(() => scrollTo(0, 0));
-    await page.click("#take-button");
-    await page.waitForSelector(".kind");
+    const rows = [["glazed counter", "for the kitchen", "wet"], ["pin board", "beside the door", "dry"], ["stage curtain", "", "dry, soft"], ["railing", "below the stairs", "wet"]];
+    for (const [n, [name, note, tags]] of rows.entries()) {
+      const row = page.locator(".kept li").nth(rows.length - 1 - n);
+      for (const [field, text] of Object.entries({ name, note, tags })) await row.locator(`.kept-${field}`).fill(text);
+    }
+    await page.locator("#own-drawer").evaluate((drawer) => drawer.scrollIntoView({ block: "end" }));
+    await page.evaluate(() => document.activeElement.blur());
+    await page.waitForTimeout(300);
   },
   gallery: async (page) => {
-    await page.keyboard.press("Escape");
+    await page.evaluate(() => scrollTo(0, 0));
     await page.click("#views label:last-child");
     await page.locator(".cells [role=option]").nth(7).click();
     await page.waitForFunction(() => [...document.querySelectorAll(".cell img")].every(({ dataset }) => dataset.state === "loaded"));
@@ -81,7 +78,7 @@ const STATES = {
 /** A page that begins with nothing in its project, whatever was drawn before. */
 async function begin(browser, colorScheme) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, colorScheme });
-  await page.route("**/api/project.json", (route) => route.fulfill({ json: {} }));
+  await page.route("**/api/project.json*", (route) => route.fulfill({ json: {} }));
   await page.goto(address);
   return page;
 }
@@ -98,11 +95,11 @@ async function animate(page) {
 }
 
 const browser = await chromium.launch({ executablePath, args: ["--autoplay-policy=no-user-gesture-required", "--no-sandbox"] });
-for (const colorScheme of ["light", "dark"]) {
+for (const [colorScheme, shown] of Object.entries(SHOWN)) {
   const page = await begin(browser, colorScheme);
   for (const [name, reach] of Object.entries(STATES)) {
     await reach(page);
-    await page.screenshot({ path: join(folder, `studio-${name}-${colorScheme}.png`) });
+    if (shown.includes(name)) await page.screenshot({ path: join(folder, `studio-${name}-${colorScheme}.png`) });
   }
   await page.close();
 }
