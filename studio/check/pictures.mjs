@@ -95,11 +95,11 @@ async function animate(page) {
 }
 
 const browser = await chromium.launch({ executablePath, args: ["--autoplay-policy=no-user-gesture-required", "--no-sandbox"] });
-for (const [colorScheme, shown] of Object.entries(SHOWN)) {
+for (const [colorScheme, drawn] of Object.entries(SHOWN)) {
   const page = await begin(browser, colorScheme);
   for (const [name, reach] of Object.entries(STATES)) {
     await reach(page);
-    if (shown.includes(name)) await page.screenshot({ path: join(folder, `studio-${name}-${colorScheme}.png`) });
+    if (drawn.includes(name)) await page.screenshot({ path: join(folder, `studio-${name}-${colorScheme}.png`) });
   }
   await page.close();
 }
