@@ -120,10 +120,6 @@ async function picked(visit, tools, names) {
   assert((await page.textContent("#surface-title")) === names[3 + columns], "unless they are told not to");
   await page.keyboard.press("Enter");
   await extracted(visit, tools, "many.aspl", names[COUNT - 1]);
-  await page.click(".gallery .hand");
-  await until(page, () => document.getElementById("auto").getAttribute("aria-pressed") === "true");
-  assert((await page.textContent(".gallery .hand")).includes("Stop"), "the hand is started beside the pictures");
-  await page.click(".gallery .hand");
 }
 
 async function scattered(visit, tools) {

@@ -34,6 +34,7 @@ export function startBeginning({ state, server, loader, sound, move, restore, li
     prepared.then(() => sound.allowed && sound.start());
   });
   // The first gesture of any kind starts the sound, but that of the switch itself.
+  /** @param {any} event */
   const wake = ({ type, key, target }) => {
     if ((type === "keydown" && key !== "Enter") || target.closest?.("#sound-switch, #auto")) return;
     for (const name of ["pointerdown", "keydown"]) removeEventListener(name, wake, true);

@@ -2,9 +2,10 @@
 
 import { texts } from "./texts.js";
 
+/** @type {(id: string) => any} The page has it, and who asks knows what it is. */
 export const find = (id) => document.getElementById(id);
 
-/** An element; children that are strings become text. */
+/** An element; children that are strings become text. @param {Record<string, any>} [attributes] @param {(Node | string)[]} children @returns {any} */
 export function element(tag, attributes = {}, ...children) {
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
@@ -89,8 +90,8 @@ export function showRefusal(panel, refusal) {
 // What went wrong outside the prompt, each with its remedy. A key shows once.
 const shown = new Map();
 
-/** `action`: a button, { label, run }. */
-export function notify(key, { text, help, action }) {
+/** @type {(key: string, notice: { text: string, help?: string, action?: { label: string, run: () => void } }) => void} `action` is a button. */
+export const notify = (key, { text, help, action }) => {
   withdraw(key);
   const notice = element("div", { class: "notice", "data-key": key },
     element("p", {}, element("strong", {}, text), ...(help ? [" ", help] : [])));
@@ -98,7 +99,7 @@ export function notify(key, { text, help, action }) {
   notice.append(element("button", { type: "button", class: "quiet", onclick: () => withdraw(key) }, texts.notices.dismiss));
   shown.set(key, notice);
   find("notices").append(notice);
-}
+};
 
 export function withdraw(key) {
   shown.get(key)?.remove();

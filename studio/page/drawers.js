@@ -1,10 +1,9 @@
 // What is not needed at every stroke: drawers below the surface, which stay as they were left, and the list of keys.
 
-import { element, find, recall, remember, writes } from "./dom.js";
-import { texts } from "./texts.js";
+import { find, recall, remember, writes } from "./dom.js";
 
 export function startDrawers() {
-  const drawers = [...document.querySelectorAll(".drawers > details")];
+  const drawers = /** @type {HTMLDetailsElement[]} */ ([...document.querySelectorAll(".drawers > details")]);
   const recalled = recall("drawers", {});
   for (const drawer of drawers) {
     drawer.open = recalled?.[drawer.id] ?? drawer.open;
@@ -13,10 +12,6 @@ export function startDrawers() {
   }
 
   const keys = find("keys");
-  keys.append(
-    element("div", { class: "row" }, element("h2", { id: "keys-title" }, texts.keys.title),
-      element("button", { type: "button", class: "quiet", popovertarget: "keys", popovertargetaction: "hide" }, texts.keys.close)),
-    element("dl", { class: "rows" }, ...texts.keys.all.flatMap(([key, does]) => [element("dt", {}, key), element("dd", {}, does)])));
   addEventListener("keydown", (event) => {
     if (event.key === "?" && !event.ctrlKey && !event.metaKey && !event.altKey && !writes(event)) keys.togglePopover();
   });

@@ -3,10 +3,10 @@
 export class Events extends EventTarget {
   /** Calls `hear` with what `emit` gives it. */
   on(name, hear) {
-    this.addEventListener(name, ({ detail }) => hear(detail));
+    this.addEventListener(name, (event) => hear(/** @type {CustomEvent} */ (event).detail));
   }
 
-  emit(name, detail) {
+  emit(name, detail = undefined) {
     this.dispatchEvent(new CustomEvent(name, { detail }));
   }
 }

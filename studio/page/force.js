@@ -15,7 +15,7 @@ export class Force {
   #constant = new Map();
 
   /** `onconstant` hears true once for a pen whose pressure does not change, and false when it does after all. */
-  constructor(onconstant = () => {}) {
+  constructor(onconstant = (/** @type {boolean} */ _isConstant) => {}) {
     this.onconstant = onconstant;
   }
 

@@ -71,7 +71,7 @@ export function followKeys({ surface, hand, force, speed_mm_s, begun }) {
 
   // Shift presses harder, whoever strokes.
   for (const name of ["keydown", "keyup"]) {
-    addEventListener(name, (event) => event.key === "Shift" && (force.doubled = name === "keydown"));
+    addEventListener(name, (/** @type {any} */ event) => event.key === "Shift" && (force.doubled = name === "keydown"));
   }
   addEventListener("blur", () => (force.doubled = false));
 }

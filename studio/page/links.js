@@ -42,7 +42,7 @@ export class Links {
 
   /** Shows what a text links to; whether it holds a link at all. */
   open(text) {
-    const { server, loader, state } = this.#parts;
+    const { loader, state } = this.#parts;
     const [, recipe] = RECIPE.exec(text) ?? [];
     const [, name] = TEXTURE.exec(text) ?? [];
     if (recipe === undefined && name === undefined) return false;

@@ -7,7 +7,9 @@ import { texts } from "./texts.js";
 
 /** The server refused; `message` and `help` are the texts of the command, `status` that of HTTP. */
 export class Refusal extends Error {
-  constructor(message, help, status) {
+  help; status;
+
+  constructor(message, help = undefined, status = undefined) {
     super(message);
     Object.assign(this, { help, status });
   }
@@ -28,7 +30,8 @@ export class Server {
     this.#base = base;
   }
 
-  async about(signal) {
+  /** @returns {Promise<About>} */
+  async about(signal = undefined) {
     const about = await this.#json("api/about.json", { signal });
     this.#exported = about.exported;
     if (about.compiler) this.#offline ??= new Offline(about, this.#base, (path) => this.#answer(path, {}));
@@ -45,50 +48,60 @@ export class Server {
     if (!this.#exported) await this.#answer("icon.svg", { method: "HEAD", cache: "no-store", signal });
   }
 
-  compile({ prompt, seed = 0 }, signal) {
+  /** @returns {Promise<Texture>} */
+  compile({ prompt, seed = 0 }, signal = undefined) {
     return this.#post("api/compile", { prompt, seed }, signal);
   }
 
-  /** Another texture of one: `change` is { steps } or { words }, as of `asperity edit`; with { draft: true } it has no picture. */
-  edit(texture, change, signal) {
+  /**
+   * Another texture of one: `change` is { steps } or { words }, as of `asperity edit`; with { draft: true } it has no picture.
+   * @param {Named} texture @returns {Promise<Texture>}
+   */
+  edit(texture, change, signal = undefined) {
     return this.#post("api/edit", { texture: texture.id, ...change }, signal);
   }
 
-  /** Between two textures: `a` at 0, `b` at 1; a draft has no picture. */
-  blend(a, b, t, draft, signal) {
+  /** Between two textures: `a` at 0, `b` at 1; a draft has no picture. @param {Named} a @param {Named} b @returns {Promise<Texture>} */
+  blend(a, b, t, draft, signal = undefined) {
     return this.#post("api/blend", { a: a.id, b: b.id, t, draft }, signal);
   }
 
-  /** Taps of one texture, vibration of another, friction of a third. */
-  compose({ tap, slide, friction }, signal) {
+  /** Taps of one texture, vibration of another, friction of a third. @returns {Promise<Texture>} */
+  compose({ tap, slide, friction }, signal = undefined) {
     return this.#post("api/compose", { tap: tap.id, slide: slide.id, friction: friction.id }, signal);
   }
 
-  /** The latent of a texture that has none, as of `asperity encode`, so that it can be edited. */
-  encode(texture, signal) {
+  /** The latent of a texture that has none, as of `asperity encode`, so that it can be edited. @param {Named} texture @returns {Promise<Texture>} */
+  encode(texture, signal = undefined) {
     return this.#post("api/encode", { texture: texture.id }, signal);
   }
 
-  /** What a recipe's link leads to: { texture, base, steps, same }. */
-  link(link, signal) {
+  /**
+   * What a recipe's link leads to: { texture, base, steps, same }.
+   * @returns {Promise<{ texture: Texture, base: Texture | null, steps: Record<string, number> | null, same: boolean }>}
+   */
+  link(link, signal = undefined) {
     return this.#post("api/link", { link }, signal);
   }
 
-  /** A dropped file, with what is stated of a picture: { texture }, or { library } for one with several textures. */
-  open(file, stated = {}, signal) {
+  /**
+   * A dropped file, with what is stated of a picture: { texture }, or { library } for one with several textures.
+   * @returns {Promise<{ texture?: Texture, library?: About["library"] }>}
+   */
+  open(file, stated = {}, signal = undefined) {
     const options = { method: "POST", headers: { "Content-Type": "application/octet-stream" }, body: file, signal };
     return this.#json(`api/open?${new URLSearchParams({ name: file.name, ...stated })}`, options);
   }
 
-  /** A dropped folder, the files of a recording: { texture }. */
-  openFolder({ name, files }, signal) {
+  /** A dropped folder, the files of a recording: { texture }. @param {{ name: string, files: File[] }} folder @returns {Promise<{ texture: Texture }>} */
+  openFolder({ name, files }, signal = undefined) {
     const list = files.map((file) => ({ name: file.name, bytes: file.size }));
     const body = new Blob([`${JSON.stringify(list)}\n`, ...files]);
     const options = { method: "POST", headers: { "Content-Type": "application/octet-stream" }, body, signal };
     return this.#json(`api/folder?${new URLSearchParams({ name })}`, options);
   }
 
-  /** How far the list is that is compiled: { done, total }, of 0 where none is. */
+  /** How far the list is that is compiled: { done, total }, of 0 where none is. @returns {Promise<{ done: number, total: number }>} */
   batch() {
     return this.#json("api/batch.json", {});
   }
@@ -97,13 +110,13 @@ export class Server {
     return this.#post("api/batch.json", {});
   }
 
-  /** One library of a library's description in `about`, with the columns of its textures. */
-  library(id, signal) {
+  /** One library of a library's description in `about`, with the columns of its textures. @returns {Promise<Columns>} */
+  library(id, signal = undefined) {
     return this.#json(`api/library/${id}.json`, { signal });
   }
 
-  /** The texture at a place in a library. */
-  pick(library, index, signal) {
+  /** The texture at a place in a library. @returns {Promise<Texture>} */
+  pick(library, index, signal = undefined) {
     return this.#json(`api/library/${library.id}/${index}.json`, { signal });
   }
 
@@ -134,8 +147,8 @@ export class Server {
     return this.#post("api/device/play", { texture: texture.id });
   }
 
-  /** What the server knows of a texture. */
-  shown(texture, signal) {
+  /** What the server knows of a texture. @param {Named} texture @returns {Promise<Texture>} */
+  shown(texture, signal = undefined) {
     return this.#json(`api/texture/${texture.id}.page.json`, { signal });
   }
 

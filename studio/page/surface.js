@@ -52,6 +52,7 @@ export class Surface extends Events {
 
   /** Shows a texture by the Blobs of its picture and its normal map. */
   async show(picture, normals, width_mm) {
+    /** @type {ImageBitmapOptions} */
     const options = { premultiplyAlpha: "none", colorSpaceConversion: "none" };
     const images = await Promise.all([picture, normals].map((blob) => createImageBitmap(blob, options)));
     this.#shown = [...images, width_mm];

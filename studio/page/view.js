@@ -23,12 +23,12 @@ export class View {
     this.centre_mm = [0, 0];
   }
 
-  toMm([x_px, y_px]) {
+  toMm(/** @type {number[]} */ [x_px, y_px]) {
     const [x_mm, y_mm] = this.centre_mm;
     return [x_mm + (x_px - this.width_px / 2) / this.px_mm, y_mm - (y_px - this.height_px / 2) / this.px_mm];
   }
 
-  toPx([x_mm, y_mm]) {
+  toPx(/** @type {number[]} */ [x_mm, y_mm]) {
     const [right_mm, up_mm] = [x_mm - this.centre_mm[0], y_mm - this.centre_mm[1]];
     return [this.width_px / 2 + right_mm * this.px_mm, this.height_px / 2 - up_mm * this.px_mm];
   }

@@ -8,6 +8,7 @@ const KEPT_S = 10;
 const [LOW, HIGH, BINS] = [-1, 5, 48];
 const HEIGHT_PX = 72;
 const FOOT_PX = 16;
+/** @type {[number, string][]} */
 const LABELS = [[0, "1 µs"], [1, "10"], [2, "100"], [3, "1 ms"], [4, "10"]];
 
 export const binOf = (us) => {

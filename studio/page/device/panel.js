@@ -7,6 +7,7 @@ import { Feed } from "./feed.js";
 import { Jitter } from "./jitter.js";
 
 /** Bits of the runtime's flags (`runtime/src/events.rs`), the first that is set counts. */
+/** @type {[number, string][]} */
 const STATES = [[1 << 7, "safe"], [1 << 8, "ramping"], [1, "contact"]];
 const MOST_TEXTS = 6;
 /** Shares of the ticks, as the server names them. */

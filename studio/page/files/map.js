@@ -24,7 +24,7 @@ export function askMap({ name }) {
   dialog.showModal();
   return new Promise((done) => dialog.addEventListener("close", () => {
     dialog.remove();
-    const stated = Object.fromEntries([...new FormData(form)].filter(([, value]) => value.trim() !== ""));
+    const stated = Object.fromEntries([...new FormData(form)].filter(([, value]) => String(value).trim() !== ""));
     done(dialog.returnValue === "import" ? stated : null);
   }));
 }

@@ -32,7 +32,8 @@ export class Compare {
     this.#server = server;
     this.#pick = pick;
     const select = (label) => element("select", { "aria-label": label, onchange: () => this.#compare() });
-    [this.old, this.now] = [select(texts.gallery.before), select(texts.gallery.now)];
+    this.old = select(texts.gallery.before);
+    this.now = select(texts.gallery.now);
     this.found = element("div", { class: "found", tabindex: "0", role: "group", "aria-label": texts.gallery.differences });
     this.element = element("div", { class: "compare" },
       element("div", { class: "axes" }, element("label", {}, texts.gallery.before, " ", this.old),

@@ -11,7 +11,7 @@ import { Filters } from "./filters.js";
 import { Grid } from "./grid.js";
 import { Library } from "./library.js";
 import { mountScatter } from "./scatter.js";
-import { handButton, startViews } from "./views.js";
+import { startViews } from "./views.js";
 
 /** How long the arrow keys rest before what they reached is picked, ms. */
 const REACHED_MS = 150;
@@ -117,7 +117,7 @@ class Gallery {
       element("div", { class: "tools" }, this.filters.element,
         element("div", { class: "row" }, this.modes, this.count, this.like, this.chosen.several), this.chosen.element),
       this.grid.element, this.plot, this.compare.element, this.none,
-      element("div", { class: "row" }, this.following, handButton()));
+      this.following);
     this.invitation = element("div", { class: "start" }, element("p", {}, texts.gallery.invitation),
       element("button", { type: "button", class: "strong", onclick: () => find("open").click() }, texts.files.open),
       element("p", { class: "small" }, texts.gallery.invitation_command),

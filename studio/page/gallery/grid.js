@@ -15,6 +15,7 @@ const BEYOND = 1;
 const rem = () => parseFloat(getComputedStyle(document.documentElement).fontSize);
 
 export class Grid {
+  address; pick; reached; chosen; isKept;
   #sizer = element("div", { class: "sizer" });
   #cells = new Map();
   #thumbnails = new Thumbnails();

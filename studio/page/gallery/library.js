@@ -8,13 +8,15 @@ export const folded = (text) => text.normalize("NFD").replace(/\p{M}/gu, "").toL
 const byName = new Intl.Collator("en", { numeric: true, sensitivity: "base" });
 
 export class Library {
+  id; name; names; prompts; textures; certainty; count;
   #orders = new Map();
   #folded;
   #places;
 
+  /** @param {Columns} columns */
   constructor(columns) {
     const { id, name, names, prompts, textures, certainty, notes = [] } = columns;
-    Object.assign(this, { id, name, names, prompts, textures, certainty, notes, count: names.length });
+    Object.assign(this, { id, name, names, prompts, textures, certainty, count: names.length });
     this.values = Object.fromEntries(ATTRIBUTES.map((attribute) => [attribute.name, valuesOf(attribute, columns)]));
     this.ends = Object.fromEntries(ATTRIBUTES.map(({ name }) => [name, endsOf(this.values[name])]));
     this.#folded = names.map((name, place) => folded(`${name}\n${prompts[place] ?? ""}\n${notes[place] ?? ""}`));

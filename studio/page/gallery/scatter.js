@@ -37,7 +37,8 @@ class Points extends Figure {
 
   constructor(stage, pick, address) {
     super(stage, "scatter", texts.gallery.scatter);
-    Object.assign(this, { pick, address });
+    this.pick = pick;
+    this.address = address;
     this.attributes = [ATTRIBUTES[0], ATTRIBUTES[2]];
     this.canvas.setAttribute("role", "application");
     this.canvas.addEventListener("pointermove", (event) => this.#point(event));
@@ -123,7 +124,7 @@ class Points extends Figure {
   }
 
   /** A texture's picture at its point, as soon as it is there. */
-  #picture(on, place, [left, top]) {
+  #picture(on, place, /** @type {number[]} */ [left, top]) {
     if (Number.isNaN(left + top)) return;
     if (!this.#pictures.has(place)) {
       const image = new Image();

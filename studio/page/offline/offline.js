@@ -47,7 +47,7 @@ export class Offline {
   }
 
   /** The Response to a request that `asks` holds for. */
-  async ask(path, { body } = {}) {
+  async ask(path, { body = undefined } = {}) {
     const bytes = body === undefined ? undefined : await new Response(body).arrayBuffer();
     const said = typeof body === "string" ? body : path;
     for (const [id] of said.matchAll(ID)) await this.#give(id);

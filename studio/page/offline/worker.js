@@ -20,7 +20,7 @@ async function fetched(address) {
   return new Blob(parts).arrayBuffer();
 }
 
-function reply({ target, body }) {
+function reply({ target, body = undefined }) {
   const path = encoder.encode(target);
   const at = exports.reserve(path.length + (body?.byteLength ?? 0));
   // The memory may have grown, and its buffer is another one then.
@@ -41,7 +41,7 @@ addEventListener("message", async ({ data }) => {
       return postMessage({ ready: JSON.parse(decoder.decode(reply({ target: "api/about.json" }).bytes)).version });
     }
     const answer = reply(data);
-    postMessage(answer, [answer.bytes]);
+    postMessage(answer, { transfer: [answer.bytes] });
   } catch (error) {
     postMessage({ failed: String(error) });
   }

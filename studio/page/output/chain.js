@@ -38,7 +38,8 @@ export class Chain {
     this.input = new GainNode(context);
     this.loudness = new GainNode(context);
     this.renderer.connect(this.input).connect(this.loudness);
-    [this.drive, this.volume] = [1 / FULL_SCALE_M_S2, 0].map((gain) => new GainNode(context, { gain }));
+    this.drive = new GainNode(context, { gain: 1 / FULL_SCALE_M_S2 });
+    this.volume = new GainNode(context, { gain: 0 });
     this.equaliser = new Equaliser(context);
     this.limiter = new AudioWorkletNode(context, "limiter", { outputChannelCount: [1], processorOptions: { ceiling: CEILING } });
     this.meter = new AnalyserNode(context, { fftSize: 2048 });
@@ -47,7 +48,7 @@ export class Chain {
     this.gates = Array.from({ length: CHANNELS }, () => new GainNode(context, { gain: 0 }));
     this.merger = new ChannelMergerNode(context, { numberOfInputs: CHANNELS });
     this.gates.forEach((gate, n) => gate.connect(this.merger, 0, n));
-    this.#bands = ["lowpass", "highpass"].map((type) => {
+    this.#bands = ["lowpass", "highpass"].map((/** @type {BiquadFilterType} */ type) => {
       const meter = new AnalyserNode(context, { fftSize: 2048 });
       this.input.connect(new BiquadFilterNode(context, { type, frequency: CROSSOVER_HZ, Q: -3 })).connect(meter);
       return meter;

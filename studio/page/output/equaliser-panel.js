@@ -16,7 +16,7 @@ function saved() {
     && gains.every((gain) => Math.abs(gain) <= MOST_DB)));
 }
 
-function bandSlider({ frequency }, use) {
+function bandSlider(/** @type {BiquadFilterOptions} */ { frequency }, use) {
   const id = `band-${frequency}`;
   const input = element("input", { type: "range", id, min: -MOST_DB, max: MOST_DB, step: 1, value: 0 });
   const output = element("output", { for: id });

@@ -1,5 +1,6 @@
 // The equaliser for an actuator: five bands between 20 and 500 Hz. Without gains it changes nothing.
 
+/** @type {BiquadFilterOptions[]} */
 export const BANDS = [
   { type: "lowshelf", frequency: 35 },
   { type: "peaking", frequency: 60, Q: 1 },

@@ -17,9 +17,13 @@ export const gamepads = () => [...(navigator.getGamepads?.() ?? [])].filter((pad
 /** Whether this is a device with a motor; browsers of desks have the function too. */
 export const hasVibration = () => "vibrate" in navigator && matchMedia("(any-pointer: coarse)").matches;
 
-/** Calls `drive` with the RMS below and above the crossover, m/s², while it is on. */
+/** Calls `drive` with the RMS below and above the crossover, m/s², while it is on, and `rest` when it ends. */
 class Motor {
   #timer = null;
+
+  drive(_low_m_s2, _high_m_s2) {}
+
+  rest() {}
 
   constructor(sound) {
     this.sound = sound;

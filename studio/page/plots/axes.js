@@ -45,7 +45,7 @@ export function signed(value, decimals) {
  * An axis is { low, high, title, log?, every? }; the title of y stands above it. With `equal`, a unit is as long on both,
  * and one of the axes shows more than was asked for.
  */
-export function axes(ctx, figure, x, y, { area, right = GAP_PX + 4, grid = true, frame = true, equal = false } = {}) {
+export function axes(ctx, figure, x, y, { area = undefined, right = GAP_PX + 4, grid = true, frame = true, equal = false } = {}) {
   const { palette } = figure.stage;
   const within = area ?? { left: 0, top: 0, right: figure.width, bottom: figure.height };
   const top = within.top + (y.title ? ROW_PX : GAP_PX);

@@ -31,7 +31,7 @@ export class Force extends Figure {
     const dots = [];
     for (let tick = step * Math.ceil(from / step); tick < to; tick += step)
       dots.push(columns.map((column) => ring.at(tick, column)));
-    const reach = ([x, y, z]) => Math.max(Math.abs(x), Math.abs(y), z / 1.5, -2 * z);
+    const reach = (/** @type {number[]} */ [x, y, z]) => Math.max(Math.abs(x), Math.abs(y), z / 1.5, -2 * z);
     const end = this.span.follow(dots.reduce((most, dot) => Math.max(most, reach(dot)), reach(mean)), now_s);
     const limit_n = inspect?.gains.f_max_n;
     const [top, side] = this.layer(ctx, "axes", `${end}|${limit_n}`, (on) => this.#axes(on, end, limit_n));

@@ -14,6 +14,7 @@ const ROUND_DB = 5;
 export const decibels = (power) => 10 * Math.log10(power);
 
 export class Models {
+  vertices; triangles; max_speed_mm_s; max_force_n; rate_hz;
   #runtime;
 
   /** `runtime` has the exports of `asperity.wasm`, which loads `asset`; `ar` is of `asperity inspect --json`. */

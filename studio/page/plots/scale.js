@@ -50,9 +50,10 @@ const roomFor = (x) => (x > 0 ? roundUp(1.05 * x, ENDS) : 0);
 
 /** The end of an axis: grows at once to hold what is shown, shrinks once it was too large for long. */
 export class Span {
+  least; round; patience_s; end; needed; since_s;
   /** `round` gives the end that holds a number. */
   constructor(least, round = roomFor, patience_s = 3) {
-    Object.assign(this, { least, round, patience_s, end: least, needed: least, since_s: undefined });
+    Object.assign(this, { least, round, patience_s, end: least, needed: least });
   }
 
   /** The end at `now_s` that holds `x`. */

@@ -40,7 +40,8 @@ export class Spectrum extends Figure {
     if (this.fft?.size !== size) {
       this.fft = new Fft(size);
       this.signal = new Float64Array(size);
-      [this.powers, this.smooth] = [0, 1].map(() => new Float64Array(size / 2 + 1));
+      this.powers = new Float64Array(size / 2 + 1);
+      this.smooth = new Float64Array(size / 2 + 1);
     }
     const nyquist_hz = 0.5 * models.rate_hz;
     this.high_hz = Math.max(HIGH_HZ, nyquist_hz);

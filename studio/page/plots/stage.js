@@ -14,6 +14,8 @@ const HOLDERS = {
 
 /** The page's colours and font as canvases need them: resolved, whatever notation the page uses. */
 class Palette {
+  version = "";
+
   constructor(container, changed) {
     this.probe = element("span", { class: "unseen plot-probe" });
     container.append(this.probe);

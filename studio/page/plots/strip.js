@@ -1,6 +1,6 @@
 // A strip of the last ten seconds, a lane for each of five numbers, as least and greatest values.
 
-import { axes, clipped } from "./axes.js";
+import { clipped } from "./axes.js";
 import { Figure } from "./figure.js";
 import { BLOCK, COLUMN } from "./ring.js";
 import { Span } from "./scale.js";
@@ -30,7 +30,7 @@ export class Strip extends Figure {
     this.texts = texts;
     this.scrolled = scrolled;
     this.least_s = 1 / 60;
-    this.lanes = LANES.map((lane) => ({ ...lane, span: new Span(lane.least) }));
+    this.lanes = LANES.map((lane) => ({ signed: false, ...lane, span: new Span(lane.least), range: null, end: lane.least }));
     this.#listen();
   }
 

@@ -2,7 +2,7 @@
 
 import { signed } from "./axes.js";
 
-const place = ({ speed_mm_s, force_n }) => `${signed(speed_mm_s, 0)} mm/s, ${signed(force_n, 2)} N`;
+const place = (/** @type {any} */ { speed_mm_s, force_n }) => `${signed(speed_mm_s, 0)} mm/s, ${signed(force_n, 2)} N`;
 const level = (db) => (Number.isFinite(db) ? `${signed(db, 1)} dB` : "silent");
 const kinds = { interior: "measured model", edge: "edge model" };
 const span = (range, decimals, unit) =>

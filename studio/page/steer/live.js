@@ -4,6 +4,7 @@ export class Live {
   #loader;
   #made = new Map();
   /** Done when the last request is. */
+  /** @type {Promise<any>} */
   #last = Promise.resolve();
   #next = null;
   #running = false;

@@ -24,7 +24,7 @@ export class Mix {
   constructor(parts, compare) {
     this.#parts = parts;
     this.#compare = compare;
-    const { server, loader, session, state } = parts;
+    const { server, loader, session } = parts;
     this.#live = new Live(loader, () => {}, (refusal) => showRefusal(this.#error, refusal));
     const choice = (name, label) => new Choice({ server, name, label, words: "mix-words", changed: () => this.#enable() });
     this.#blended = ["a", "b"].map((name) => choice(name, texts.steer.mix.blend_of[name]));

@@ -50,7 +50,7 @@ function startBlind({ state }, compare) {
     document.body.classList.toggle("blind", blind);
     veil.hidden = !blind;
     name.hidden = !blind;
-    for (const part of document.querySelectorAll(`.prompt, main .panel:not([${STAYS}]), #timeline`)) part.inert = blind;
+    for (const part of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll(`.prompt, main .panel:not([${STAYS}]), #timeline`))) part.inert = blind;
     const shown = blind ? texts.steer.compare.title_blind : state.get("texture")?.name;
     if (shown) document.title = texts.titled(shown);
     // In place of what was said last, which may be a name.
