@@ -152,21 +152,37 @@ async function list({ page, errors }, { assert, asperity, folder, offline }) {
 }
 
 /** Folders, which a browser gives to a page where they are dropped by hand alone. */
-async function folders({ page, cdp, errors }, { assert, folder, offline }) {
+async function folders({ page, cdp, errors }, { assert, asperity, folder, offline }) {
   const dropped = async (name, files) => {
     mkdirSync(join(folder, name));
-    for (const [file, text] of Object.entries(files)) writeFileSync(join(folder, name, file), text);
+    for (const [file, content] of Object.entries(files)) writeFileSync(join(folder, name, file), content);
     const data = { items: [], files: [join(folder, name)], dragOperationsMask: 1 };
     for (const type of ["dragEnter", "dragOver", "drop"]) await cdp.send("Input.dispatchDragEvent", { type, x: 300, y: 300, data });
+  };
+  const refused = async (name, files) => {
+    await dropped(name, files);
     await page.waitForSelector(`[data-key="open ${name}"]`);
     return page.textContent(`[data-key="open ${name}"] p`);
   };
-  const none = await dropped("pictures", { "a.png": "" });
-  assert(none.includes("asperity record-check"), `a folder that is no recording is refused: ${none}`);
-  const oak = await dropped("oak", { "recording.toml": "name = \"Oak\"\n[[file]]\npath = \"all.csv\"\n" });
-  assert(offline || oak.includes("oak/"), `one that is, is read as asperity import recording reads it: ${oak}`);
+  const none = await refused("notes", { "a.txt": "" });
+  assert(none.includes("asperity record-check"), `a folder of something else is refused: ${none}`);
+  const oak = await refused("oak", { "recording.toml": "name = \"Oak\"\n[[file]]\npath = \"all.csv\"\n" });
+  assert(offline || oak.includes("oak/"), `a recording is read as asperity import recording reads it: ${oak}`);
   errors.splice(0);
   for (const button of await page.$$(".notice button:last-child")) await button.click();
+  // A page without a server has no folder for temporary files.
+  if (offline) return;
+  await dropped("cord", { "cord_height.png": readFileSync(join(folder, "ribs.png")) });
+  await page.waitForSelector("dialog[open]");
+  await page.fill("#map-width_mm", "60");
+  await page.fill("#map-depth_mm", "0.5");
+  await page.keyboard.press("Enter");
+  await shown(page, "cord");
+  await page.click("#take-button");
+  const { bytes } = await downloaded(page, () => page.click('.kind[data-ending="asp"]'));
+  await page.keyboard.press("Escape");
+  run(asperity, folder, "import", "surface", "cord", "--width-mm", "60", "--depth-mm", "0.5", "-o", "cord.asp", "--quiet");
+  assert(bytes.equals(readFileSync(join(folder, "cord.asp"))), "a folder with a material's pictures becomes the texture of asperity import surface");
 }
 
 /** `offline` where the page comes from files alone. */

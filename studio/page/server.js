@@ -93,12 +93,12 @@ export class Server {
     return this.#json(`api/open?${new URLSearchParams({ name: file.name, ...stated })}`, options);
   }
 
-  /** A dropped folder, the files of a recording: { texture }. @param {{ name: string, files: File[] }} folder @returns {Promise<{ texture: Texture }>} */
-  openFolder({ name, files }, signal = undefined) {
+  /** A dropped folder, the files of a recording, or of a material with what is stated of it: { texture }. @param {{ name: string, files: File[] }} folder @returns {Promise<{ texture: Texture }>} */
+  openFolder({ name, files }, stated = {}, signal = undefined) {
     const list = files.map((file) => ({ name: file.name, bytes: file.size }));
     const body = new Blob([`${JSON.stringify(list)}\n`, ...files]);
     const options = { method: "POST", headers: { "Content-Type": "application/octet-stream" }, body, signal };
-    return this.#json(`api/folder?${new URLSearchParams({ name })}`, options);
+    return this.#json(`api/folder?${new URLSearchParams({ name, ...stated })}`, options);
   }
 
   /** How far the list is that is compiled: { done, total }, of 0 where none is. @returns {Promise<{ done: number, total: number }>} */

@@ -1,13 +1,13 @@
-//! A folder that is dropped on the page: the files of a recording.
+//! A folder that is dropped on the page: the files of a recording, or the pictures of a material.
 
 use crate::{
     error::{ApiError, refused},
     http::Status,
-    opening::imported,
+    opening::{Stated, imported, surface_options},
     prompts::Loaded,
     texture::{Texture, hash},
 };
-use asperity::sources::{Tools, recording::RecordingFolder};
+use asperity::sources::{Source, Tools, recording::RecordingFolder, surface::Surface};
 use asperity_io::diagnostic::Fault;
 use serde::Deserialize;
 use std::{
@@ -29,6 +29,9 @@ struct Listed {
     name: String,
     bytes: usize,
 }
+
+/// What makes a folder a recording.
+const DESCRIPTION: &str = "recording.toml";
 
 /// Returns true for the name of a file or folder, which is no path.
 fn is_name(name: &str) -> bool {
@@ -71,14 +74,16 @@ impl<'a> Folder<'a> {
         Ok(Self { name, files, sent })
     }
 
-    /// The texture of the recording, as `asperity import recording`. Its files lie in a temporary folder meanwhile.
+    /// The texture of the recording, as `asperity import recording`, or of the material with what is stated of it, as
+    /// `asperity import surface`. Its files lie in a temporary folder meanwhile.
     ///
     /// # Errors
     /// As the command.
-    pub(crate) fn recording(&self, loaded: &Loaded) -> Result<Texture, ApiError> {
+    pub(crate) fn texture(&self, stated: Stated<'_>, loaded: &Loaded) -> Result<Texture, ApiError> {
         let unwritable = |error: std::io::Error| {
             let what = format!("its files cannot be stored: {error}");
-            let remedy = "see that the folder for temporary files has space, or run `asperity import recording`";
+            let remedy =
+                "see that the folder for temporary files has space, or run `asperity import`";
             refused(&Fault::new(what, remedy).at(self.name))
         };
         let around = tempfile::tempdir().map_err(unwritable)?;
@@ -87,16 +92,21 @@ impl<'a> Folder<'a> {
         for (name, content) in &self.files {
             fs::write(folder.join(name), content).map_err(unwritable)?;
         }
-        let source = RecordingFolder {
-            folder,
-            force: false,
+        let is_recording = self.files.iter().any(|(name, _)| name == DESCRIPTION);
+        let (source, command): (Box<dyn Source>, _) = if is_recording {
+            let force = false;
+            let source = RecordingFolder { folder, force };
+            (Box::new(source), ("recording", String::new()))
+        } else {
+            let (options, words) = surface_options(stated)?;
+            let source = Surface {
+                path: folder,
+                options,
+            };
+            (Box::new(source), ("surface", words))
         };
-        let made = imported(
-            &source,
-            Tools::of(&loaded.compiler),
-            (self.name, hash(self.sent)),
-            ("recording", String::new()),
-        );
+        let file = (self.name, hash(self.sent));
+        let made = imported(&*source, Tools::of(&loaded.compiler), file, command);
         // Where the files lay is of no interest.
         let around = format!("{}/", around.path().display());
         made.map_err(|error| ApiError {

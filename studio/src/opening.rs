@@ -116,27 +116,34 @@ fn import(kind: Imported, file: &str, bytes: &[u8]) -> Result<Texture, ApiError>
 pub(crate) fn surface(
     file: &str,
     bytes: &[u8],
-    stated: &[(&'static str, String)],
+    stated: Stated<'_>,
     loaded: &Loaded,
 ) -> Result<Texture, ApiError> {
-    let options = Options::stated(stated).map_err(|failure| refused(&*failure))?;
+    let (options, words) = surface_options(stated)?;
     let source = Surface {
         path: PathBuf::from(file),
         options,
     };
-    let words = stated
-        .iter()
-        .map(|(key, value)| format!(" --{} {}", key.replace('_', "-"), shell_word(value)));
     let tools = Tools {
         given: Some((Path::new(file), bytes)),
         ..Tools::of(&loaded.compiler)
     };
-    imported(
-        &source,
-        tools,
-        (file, hash(bytes)),
-        ("surface", words.collect()),
-    )
+    imported(&source, tools, (file, hash(bytes)), ("surface", words))
+}
+
+/// What a person states of pictures: the options of `asperity import surface`, by their keys.
+pub(crate) type Stated<'a> = &'a [(&'static str, String)];
+
+/// The options, and how a command line states them.
+///
+/// # Errors
+/// As the command.
+pub(crate) fn surface_options(stated: Stated<'_>) -> Result<(Options, String), ApiError> {
+    let options = Options::stated(stated).map_err(|failure| refused(&*failure))?;
+    let words = stated
+        .iter()
+        .map(|(key, value)| format!(" --{} {}", key.replace('_', "-"), shell_word(value)));
+    Ok((options, words.collect()))
 }
 
 /// The texture of a source that stands for a file or a folder, by its name and what distinguishes it; `command` is the

@@ -11,7 +11,7 @@ use crate::{
     library_store::{LibraryHandle, LibraryStore},
     limiter::Limiter,
     making,
-    opening::{self, FileContent},
+    opening::{self, FileContent, Stated},
     project::Project,
     prompts::{LoadPrompts, Prompts},
     recent::{self, Recent},
@@ -174,7 +174,7 @@ impl Studio {
         &self,
         file: &str,
         bytes: Vec<u8>,
-        stated: &[(&'static str, String)],
+        stated: Stated<'_>,
     ) -> Result<OpenedFile, ApiError> {
         if batch::is_list(file) {
             let library = self.batch.run(file, &bytes, self.prompts.loader()?)?;
@@ -193,12 +193,16 @@ impl Studio {
         })
     }
 
-    /// Opens the files of a recording, and keeps the texture.
+    /// Opens the files of a recording or of a material, and keeps the texture.
     ///
     /// # Errors
-    /// As `asperity import recording`, and without a prompt compiler.
-    pub(crate) fn open_recording(&self, folder: &Folder<'_>) -> Result<Arc<Texture>, ApiError> {
-        let texture = self.compute(|| folder.recording(self.prompts.get()?))?;
+    /// As `asperity import`, and without a prompt compiler.
+    pub(crate) fn open_folder(
+        &self,
+        folder: &Folder<'_>,
+        stated: Stated<'_>,
+    ) -> Result<Arc<Texture>, ApiError> {
+        let texture = self.compute(|| folder.texture(stated, self.prompts.get()?))?;
         Ok(self.keep(texture))
     }
 

@@ -274,7 +274,7 @@ fn a_link_makes_the_same_bytes_wherever_it_is_opened() {
 
 #[test]
 fn what_is_no_link_of_words_is_refused() {
-    let opened = SHARED.post("api/open?name=cork.asp", &compiled("cork"));
+    let opened = SHARED.post("api/open?name=moss.asp", &compiled("moss"));
     assert!(opened.json()["texture"]["link"].is_null(), "it has a file");
     let link = |steps: Value| {
         let text = json!({ "id": "", "steps": steps }).to_string();

@@ -75,15 +75,17 @@ export class In {
     this.#busy = false;
   }
 
-  /** Shows the texture of a recording, whose files a folder holds. */
+  /** Shows the texture of a recording or of a material, whose files a folder holds. */
   async #sendFolder(folder) {
     const { server, loader } = this.#parts;
     const { name } = folder;
     const files = await filesOf(folder);
     const isRecording = files.some((file) => file.name === "recording.toml");
-    if (!isRecording) throw new Refusal(texts.files.folder(name), texts.files.folder_help);
+    if (!isRecording && !files.some(isPicture)) throw new Refusal(texts.files.folder(name), texts.files.folder_help);
+    const stated = isRecording ? {} : await askMap({ name });
+    if (!stated) return;
     const bytes = await Promise.all(files.map(async (file) => new File([await file.arrayBuffer()], file.name)));
-    const { texture } = await server.openFolder({ name, files: bytes });
+    const { texture } = await server.openFolder({ name, files: bytes }, stated);
     await loader.take(async () => texture, { kind: "open", name });
   }
 

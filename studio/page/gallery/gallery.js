@@ -15,6 +15,8 @@ import { startViews } from "./views.js";
 
 /** How long the arrow keys rest before what they reached is picked, ms. */
 const REACHED_MS = 150;
+/** Textures whose places are known: more than a session has. */
+const MOST_ORIGINS = 256;
 
 class Gallery {
   #parts;
@@ -206,6 +208,7 @@ class Gallery {
     loader.take(async (signal) => {
       const texture = await (library.id === OWN ? server.shown({ id: library.textures[place] }, signal) : server.pick(library, place, signal));
       if (library.id !== OWN) this.#origins.set(texture.id, { library, place });
+      if (this.#origins.size > MOST_ORIGINS) this.#origins.delete(this.#origins.keys().next().value);
       return texture;
     }, { kind: "pick", name: library.names[place], walks });
   }

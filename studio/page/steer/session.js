@@ -41,14 +41,6 @@ export class Session extends Events {
     return this.#at;
   }
 
-  get canUndo() {
-    return this.#at > 0;
-  }
-
-  get canRedo() {
-    return this.#at < this.entries.length - 1;
-  }
-
   undo() {
     this.#step(-1);
   }

@@ -40,8 +40,8 @@ export function startTimeline({ server, state, session, loader }) {
   const show = () => {
     const { entries, at } = session;
     // Not `disabled`, which would lose the focus at the ends.
-    undo.setAttribute("aria-disabled", String(!session.canUndo));
-    redo.setAttribute("aria-disabled", String(!session.canRedo));
+    undo.setAttribute("aria-disabled", String(at <= 0));
+    redo.setAttribute("aria-disabled", String(at >= entries.length - 1));
     told.textContent = session.current ? texts.steer.timeline.at(at + 1, entries.length, describe(session.current)) : texts.steer.timeline.none;
     for (const entry of shown.keys()) if (!entries.includes(entry)) shown.delete(entry);
     const items = entries.map(item);

@@ -5,7 +5,7 @@ import { number } from "./number.js";
 export const files = {
   open: "Open a file …",
   drop: "Drop to open",
-  drop_kinds: "Assets, libraries, HaTT models (.xml), JSON models, effects (.haptic, .ahap, .hjif), pictures of heights or normals, lists of prompts (.csv), folders of recordings",
+  drop_kinds: "Assets, libraries, HaTT models (.xml), JSON models, effects (.haptic, .ahap, .hjif), pictures of heights or normals, lists of prompts (.csv), folders of recordings or of a material’s pictures",
   map: {
     title: (name) => `What ${name} does not say`,
     about: "Heights are grey, white high; normals are told by their colours. A photograph says nothing of touch.",
@@ -21,7 +21,7 @@ export const files = {
   stop: "Stop",
   opened: (name) => `Opened ${name}.`,
   not_opened: (name, why) => `${name} was not opened. ${why}`,
-  folder: (name) => `${name} is a folder without a recording.toml.`,
+  folder: (name) => `${name} has neither a recording.toml nor pictures.`,
   folder_help: "Of a recording, “asperity record-check FOLDER” proposes one; else drop the files in it.",
   large: (name, mib) => `${name} has ${number(mib, 0)} MiB; 64 MiB can be opened here.`,
   large_help: "Start the studio with it, as “asperity studio FILE”, or divide it with “asperity split”.",

@@ -43,10 +43,7 @@ pub(super) fn open(
     body: &mut Body<'_, '_>,
 ) -> Result<Answer, ApiError> {
     let name = file_name(&head.target)?;
-    let stated: Vec<(&'static str, String)> = KEYS
-        .into_iter()
-        .filter_map(|key| Some((key, decoded(queried(&head.target, key)?)?)))
-        .collect();
+    let stated = stated(&head.target);
     let kept = studio.send(|| {
         let bytes = body.read(FILE_BYTES)?;
         studio.open(&name, bytes, &stated)
@@ -64,9 +61,10 @@ pub(super) fn open_folder(
     body: &mut Body<'_, '_>,
 ) -> Result<Answer, ApiError> {
     let name = file_name(&head.target)?;
+    let stated = stated(&head.target);
     let texture = studio.send(|| {
         let bytes = body.read(FILE_BYTES)?;
-        studio.open_recording(&Folder::parse(&name, &bytes)?)
+        studio.open_folder(&Folder::parse(&name, &bytes)?, &stated)
     })?;
     let shown = studio.shown(&texture);
     Ok(Answer::json(format!("{{\"texture\":{shown}}}")))
@@ -107,6 +105,12 @@ pub(super) fn queried<'a>(target: &'a str, key: &str) -> Option<&'a str> {
     let (_, query) = target.split_once('?')?;
     let mut pairs = query.split('&').filter_map(|pair| pair.split_once('='));
     pairs.find_map(|(found, value)| (found == key).then_some(value))
+}
+
+/// What is stated of pictures.
+fn stated(target: &str) -> Vec<(&'static str, String)> {
+    let stated = |key| Some((key, decoded(queried(target, key)?)?));
+    KEYS.into_iter().filter_map(stated).collect()
 }
 
 /// The name of the file that is opened, which errors repeat: `name` of the query.
