@@ -113,7 +113,9 @@ try {
   assert((await taken(`${name}.asp`)).equals(readFileSync(join(work, "picked.asp"))), `“${name}” is picked, and its file has the bytes of asperity extract`);
 
   await page.click("#views label:first-child");
-  await page.type("#prompt", PROMPT);
+  // Typed letter by letter, suggestions would come between.
+  await page.$eval("#prompt", (input, text) => (input.value = text), PROMPT);
+  await page.focus("#prompt");
   await page.keyboard.press("Enter");
   await title(PROMPT);
   const compiled = await current();

@@ -90,16 +90,18 @@ export function showRefusal(panel, refusal) {
 // What went wrong outside the prompt, each with its remedy. A key shows once.
 const shown = new Map();
 
-/** @type {(key: string, notice: { text: string, help?: string, action?: { label: string, run: () => void } }) => void} `action` is a button. */
-export const notify = (key, { text, help, action }) => {
+/** @type {(key: string, notice: { text: string, help?: string, done?: boolean, action?: { label: string, run: () => void } }) => void} `action` is a button; `done` is no fault. */
+export const notify = (key, { text, help, done, action }) => {
   withdraw(key);
-  const notice = element("div", { class: "notice", "data-key": key },
+  const notice = element("div", { class: done ? "notice done" : "notice", "data-key": key },
     element("p", {}, element("strong", {}, text), ...(help ? [" ", help] : [])));
   if (action) notice.append(element("button", { type: "button", onclick: action.run }, action.label));
   notice.append(element("button", { type: "button", class: "quiet", onclick: () => withdraw(key) }, texts.notices.dismiss));
   shown.set(key, notice);
   find("notices").append(notice);
 };
+
+export const isNotified = (key) => shown.has(key);
 
 export function withdraw(key) {
   shown.get(key)?.remove();

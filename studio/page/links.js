@@ -47,11 +47,12 @@ export class Links {
     const [, name] = TEXTURE.exec(text) ?? [];
     if (recipe === undefined && name === undefined) return false;
     withdraw("link");
-    if (recipe !== undefined && !state.get("about")?.prompts) notify("link", { text: texts.link.no_compiler, help: texts.link.no_compiler_help });
-    else if (recipe !== undefined) {
-      const how = { kind: "link" };
-      loader.take((signal) => this.#made(recipe, how, signal), how);
-    } else loader.take((signal) => this.#named(decodeURIComponent(name), signal), { kind: "link" });
+    if (recipe !== undefined && !state.get("about")?.prompts) {
+      notify("link", { text: texts.link.no_compiler, help: texts.link.no_compiler_help });
+      return false;
+    }
+    const how = { kind: "link" };
+    loader.take((signal) => (recipe === undefined ? this.#named(decodeURIComponent(name), signal) : this.#made(recipe, how, signal)), how);
     return true;
   }
 

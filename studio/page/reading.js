@@ -80,7 +80,7 @@ export function showReading(compiled) {
     element("ul", { class: "words", "aria-label": texts.reading.words, title: texts.reading.words },
       ...wordsWithRoles(compiled).map(wordElement)),
     element("p", { class: "certainty", "data-level": level }, element("strong", {}, texts.reading.certainty[level] ?? level),
-      " ", texts.reading.certainty_help[level] ?? "", " ", element("span", { class: "small" }, texts.reading.share(certainty))),
+      " ", element("span", { class: "why" }, texts.reading.certainty_help[level] ?? ""), " ", element("span", { class: "small" }, texts.reading.share(certainty))),
     ...(rows.length ? [element("dl", { class: "rows" }, ...rows)] : []));
 }
 

@@ -76,7 +76,7 @@ export class Out {
     if (!address) return this.link.replaceChildren(title, element("p", { class: "small" }, texts.link.none));
     const code = element("code", { tabindex: "0", "aria-label": texts.link.label }, address);
     const button = element("button", { type: "button", id: "copy-link", onclick: () => copy(button, address, code) }, texts.copy.copy);
-    this.link.replaceChildren(title, code, button, element("p", { class: "small" }, texts.link.about));
+    this.link.replaceChildren(title, code, button, element("p", { class: "small" }, texture.link ? texts.link.about : texts.link.about_name));
   }
 
   async #save(texture, { ending }, name) {

@@ -12,7 +12,9 @@ const AT_ONCE = 50;
 export class Chosen {
   #parts;
   #library = null;
-  #places = new Set();
+  /** Places, or what names the textures of one's own library, whose places change. */
+  #keys = new Set();
+  #listed = [];
   /** Where a range begins. */
   #anchor = null;
   #abort = null;
@@ -35,14 +37,25 @@ export class Chosen {
 
   /** Begins with a library, or with the same one as it is now. */
   begin(library) {
-    const stays = library.id === this.#library?.id && library.count >= this.#library.count;
+    if (library.id !== this.#library?.id) this.#forget();
     this.#library = library;
-    this.#places = stays ? this.#places : new Set();
+    if (library.id === OWN) this.#keys = new Set([...this.#keys].filter((id) => library.textures.includes(id)));
     this.#show();
   }
 
+  /** Hears which places the gallery lists. */
+  list(places) {
+    this.#listed = places;
+    this.#show();
+  }
+
+  /** A range begins at what was picked. */
+  from(place) {
+    this.#anchor = this.#key(place);
+  }
+
   has(place) {
-    return this.#places.has(place);
+    return this.#keys.has(this.#key(place));
   }
 
   /** Whether a click chooses, and does not pick. */
@@ -52,30 +65,36 @@ export class Chosen {
 
   /** Chooses a place or lets it go; `to` reaches there from the last one, in the order of `places`. */
   toggle(place, places, to = false) {
-    const from = places.indexOf(this.#anchor);
-    if (to && from >= 0) {
-      const at = places.indexOf(place);
-      for (const each of places.slice(Math.min(from, at), Math.max(from, at) + 1)) this.#places.add(each);
-    } else if (!this.#places.delete(place)) {
-      this.#places.add(place);
-    }
-    this.#anchor = place;
+    const keys = Array.from(places, (each) => this.#key(each));
+    const [from, at] = [keys.indexOf(this.#anchor), places.indexOf(place)];
+    if (to && from >= 0) for (const key of keys.slice(Math.min(from, at), Math.max(from, at) + 1)) this.#keys.add(key);
+    else if (!this.#keys.delete(keys[at])) this.#keys.add(keys[at]);
+    this.#anchor = keys[at];
     this.#show();
   }
 
   all(places) {
-    this.#places = new Set(places);
+    this.#keys = new Set(Array.from(places, (place) => this.#key(place)));
     this.#show();
   }
 
   clear() {
-    this.#places.clear();
+    this.#forget();
     this.several.setAttribute("aria-pressed", "false");
     this.#show();
   }
 
+  #forget() {
+    this.#keys = new Set();
+    this.#anchor = null;
+  }
+
+  #key(place) {
+    return this.#library.id === OWN ? this.#library.textures[place] : place;
+  }
+
   get #items() {
-    return this.#parts.own.items.filter((_, place) => this.#places.has(place));
+    return this.#parts.own.items.filter(({ id }) => this.#keys.has(id));
   }
 
   #turn() {
@@ -83,10 +102,11 @@ export class Chosen {
   }
 
   #show() {
-    const count = this.#places.size;
+    const count = this.#keys.size;
+    const seen = this.#listed.reduce((sum, place) => sum + (this.has(place) ? 1 : 0), 0);
     const isOwn = this.#library?.id === OWN;
     this.element.hidden = count === 0;
-    this.count.textContent = texts.chosen.count(count);
+    this.count.textContent = texts.chosen.count(count, count - seen);
     this.keep.hidden = isOwn;
     for (const part of [this.tag, this.pack, this.drop]) part.hidden = !isOwn;
     this.changed();
@@ -102,7 +122,7 @@ export class Chosen {
   /** Has the server open each, since only what it has opened can be kept. */
   async #keep() {
     const { server, own, from, flush } = this.#parts;
-    const [library, places] = [this.#library, [...this.#places]];
+    const [library, places] = [this.#library, [...this.#keys]];
     this.#abort = new AbortController();
     const { signal } = this.#abort;
     withdraw("keep");

@@ -78,6 +78,7 @@ class Gallery {
     const library = own.items.length > 0 ? new Library(own.columns) : null;
     this.#libraries = library ? [...others, library] : others;
     this.#offer();
+    if (!this.modes.firstChild) this.#offerModes();
     if (this.#library && this.#library.id !== OWN) return this.grid.mark();
     const shown = library ?? others[0];
     this.invitation.hidden = Boolean(shown);
@@ -192,6 +193,7 @@ class Gallery {
     const listed = JSON.stringify([this.#library.id, wanted]);
     if (listed === this.#listed) return;
     this.#listed = listed;
+    this.chosen.list(places);
     this.grid.show(this.#library, places, values && ((place) => valueText(attribute, values[place])));
     this.scatter.show(this.#library, places);
   }

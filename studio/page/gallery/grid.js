@@ -85,7 +85,10 @@ export class Grid {
   /** Picks a texture, or chooses it as one of several. */
   #take(place, { ctrlKey, metaKey, shiftKey }) {
     if (ctrlKey || metaKey || shiftKey || this.chosen.isOn) this.chosen.toggle(place, this.#places, shiftKey);
-    else this.pick(place);
+    else {
+      this.chosen.from(place);
+      this.pick(place);
+    }
   }
 
   #clear() {

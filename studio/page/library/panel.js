@@ -1,6 +1,6 @@
 // The star at the surface, and the drawer of what is kept: names, notes, tags, and the file of a library.
 
-import { announce, busily, element, find, notify, showRefusal, withdraw, writes } from "../dom.js";
+import { announce, busily, element, find, isNotified, notify, showRefusal, withdraw, writes } from "../dom.js";
 import { Refusal } from "../server.js";
 import { portrait } from "../steer/timeline.js";
 import { texts } from "../texts.js";
@@ -9,14 +9,18 @@ import { tagsOf } from "./own.js";
 /** Rows of the drawer, the newest first: the gallery shows all. */
 const MOST = 50;
 
-/** Lets textures go, and offers to take that back. */
+/** What was removed since the offer to undo that came up: { items, back }. */
+let removed = [];
+
+/** Removes textures, and offers to undo it. */
 export function letGo(own, items) {
-  const back = own.drop(new Set(items.map(({ id }) => id)));
+  if (!isNotified("gone-own")) removed = [];
+  removed.push({ items, back: own.drop(new Set(items.map(({ id }) => id))) });
   const run = () => {
     withdraw("gone-own");
-    back();
+    for (const { back } of removed.splice(0).reverse()) back();
   };
-  notify("gone-own", { text: texts.own.dropped(items), action: { label: texts.own.back, run } });
+  notify("gone-own", { text: texts.own.dropped(removed.flatMap((each) => each.items)), done: true, action: { label: texts.own.back, run } });
 }
 
 /** Saves items as a library's file, or says why it cannot. */
@@ -38,6 +42,7 @@ function startStar({ state, own, from }) {
     const kept = own.of(id) !== undefined;
     button.setAttribute("aria-pressed", String(kept));
     button.textContent = texts.own.star[kept];
+    button.title = texts.own.star_title[kept];
   };
   const toggle = () => {
     const texture = state.get("texture");
@@ -47,7 +52,6 @@ function startStar({ state, own, from }) {
     own.keep([{ texture, from: from(texture) }]);
     announce(texts.own.kept(own.of(texture.id).name));
   };
-  button.title = texts.own.star_title;
   button.addEventListener("click", toggle);
   addEventListener("keydown", (event) => {
     if (event.defaultPrevented || event.isComposing || event.repeat || event.ctrlKey || event.metaKey || event.altKey || writes(event)) return;
@@ -68,16 +72,21 @@ function rowOf(item, { server, loader, own, error }) {
     const given = input.value.trim();
     const message = own.fault(item, given);
     input.setAttribute("aria-invalid", String(message !== null));
-    showRefusal(error, message && { message, help: texts.own.name_help });
-    if (!message) own.change(item, { name: given });
+    if (message) showRefusal(error, { message, help: texts.own.name_help });
+    else own.change(item, { name: given });
   });
   const note = field("note", { maxlength: 500 }, (input) => own.change(item, { note: input.value.trim() }));
   const tags = field("tags", { maxlength: 200 }, (input) => own.change(item, { tags: tagsOf(input.value) }));
   const show = element("button", { type: "button", class: "tile", "aria-label": texts.own.show(item.name),
     onclick: () => loader.take((signal) => server.shown(item, signal), { kind: "pick", name: item.name }) }, portrait(server, item));
   const drop = element("button", { type: "button", class: "quiet", "aria-label": texts.own.drop(item.name), title: texts.own.drop(item.name),
-    onclick: () => letGo(own, [item]) }, "×");
-  return { row: element("li", {}, show, name, note, tags, drop), follow: () => {
+    onclick: () => {
+      const next = row.nextElementSibling ?? row.previousElementSibling;
+      letGo(own, [item]);
+      next?.querySelector("button:last-child").focus();
+    } }, "×");
+  const row = element("li", {}, show, name, note, tags, drop);
+  return { row, follow: () => {
     // What a person is writing stays.
     const values = [[name, item.name], [note, item.note], [tags, item.tags.join(", ")]];
     for (const [input, value] of values) if (input !== document.activeElement && input.ariaInvalid !== "true") input.value = value;
@@ -89,7 +98,10 @@ export function startOwnLibrary({ server, state, loader, own, from, browse }) {
   startStar({ state, own, from });
   const told = element("p", { class: "small told" });
   const gallery = element("button", { type: "button", class: "quiet", onclick: browse }, texts.own.browse);
-  const pack = element("button", { type: "button", class: "strong", id: "pack", onclick: () => busily(pack, () => saveLibrary(own, server, own.items)) });
+  const pack = element("button", { type: "button", class: "strong", id: "pack", onclick: () => {
+    const wrong = list.querySelector("[aria-invalid=true]");
+    return wrong ? wrong.focus() : busily(pack, () => saveLibrary(own, server, own.items));
+  } });
   const list = element("ol", { class: "kept" });
   const error = element("div", { class: "error", role: "alert" });
   find("own").append(element("div", { class: "row" }, told, gallery, pack), error, list);
@@ -105,6 +117,7 @@ export function startOwnLibrary({ server, state, loader, own, from, browse }) {
     made.forEach((row, n) => list.children[n] !== row && list.insertBefore(row, list.children[n] ?? null));
     while (list.children.length > made.length) list.lastElementChild.remove();
     for (const item of seen) rows.get(item).follow();
+    if (!list.querySelector("[aria-invalid=true]")) showRefusal(error, null);
     told.textContent = items.length === 0 ? texts.own.none : texts.own.count(items.length, MOST);
     pack.textContent = texts.own.pack(items.length);
     pack.disabled = items.length === 0;
