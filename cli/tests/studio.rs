@@ -150,6 +150,18 @@ fn a_prompt_on_the_page_and_in_a_shell_gives_the_bytes_of_the_command() {
     }
 }
 
+/// The first line that a studio says beside its address, which then ends.
+fn warned(command: &mut Command) -> String {
+    let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().expect("it starts");
+    let mut said = String::new();
+    let stderr = child.stderr.take().expect("a pipe");
+    BufReader::new(stderr).read_line(&mut said).expect("a line");
+    let _ = child.kill();
+    let _ = child.wait();
+    said
+}
+
 #[test]
 fn a_port_that_is_taken_and_a_path_that_is_no_library_are_refused_with_a_remedy() {
     let inputs = inputs();
@@ -170,18 +182,11 @@ fn a_port_that_is_taken_and_a_path_that_is_no_library_are_refused_with_a_remedy(
     }
     // Without a port that is asked for, another one does where the usual one is taken.
     let _usual = TcpListener::bind("127.0.0.1:8417");
-    let mut child = Command::new(env!("CARGO_BIN_EXE_asperity"))
-        .args(["studio", "--no-open"])
-        .envs(home(folder))
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("it starts");
-    let mut said = String::new();
-    let stderr = child.stderr.take().expect("a pipe");
-    BufReader::new(stderr).read_line(&mut said).expect("a line");
-    let _ = child.kill();
-    let _ = child.wait();
+    let said = warned(
+        Command::new(env!("CARGO_BIN_EXE_asperity"))
+            .args(["studio", "--no-open"])
+            .envs(home(folder)),
+    );
     assert!(said.contains("port 8417 is taken"), "{said}");
     let usage = asperity(folder, &["studio", "--port", "65536"]);
     assert_eq!(usage.status.code(), Some(2));
@@ -287,20 +292,13 @@ fn an_interrupt_ends_it_with_success_and_prints_nothing_more() {
 #[test]
 fn a_missing_browser_is_a_warning_with_the_remedy() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut child = Command::new(env!("CARGO_BIN_EXE_asperity"))
-        .args(["studio", "--port", "0"])
-        .envs(home(folder.path()))
-        .env("DISPLAY", ":0")
-        .env("PATH", folder.path())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("it starts");
-    let mut said = String::new();
-    let stderr = child.stderr.take().expect("a pipe");
-    BufReader::new(stderr).read_line(&mut said).expect("a line");
-    let _ = child.kill();
-    let _ = child.wait();
+    let said = warned(
+        Command::new(env!("CARGO_BIN_EXE_asperity"))
+            .args(["studio", "--port", "0"])
+            .envs(home(folder.path()))
+            .env("DISPLAY", ":0")
+            .env("PATH", folder.path()),
+    );
     for part in ["warning: ", "xdg-open", "open the address above by hand"] {
         assert!(said.contains(part), "{said}");
     }

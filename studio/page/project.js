@@ -58,5 +58,5 @@ export function startProject({ server, state, session, compare, own }) {
       return false;
     }
   };
-  return { restore, flush: save };
+  return { restore, flush: () => saving };
 }

@@ -31,9 +31,12 @@ pub(crate) fn perform(
 ) -> Result<Texture, ApiError> {
     match (operation, others) {
         (Operation::Compile { prompt, seed }, []) => compile(loaded, prompt, *seed),
-        (Operation::Edit { edit, draft, .. }, [texture]) => {
-            edit_of(loaded, texture, within(edit.clone())?, *draft)
-        }
+        (
+            Operation::Edit {
+                edit: asked, draft, ..
+            },
+            [texture],
+        ) => edit(loaded, texture, within(asked.clone())?, *draft),
         (Operation::Blend { t, .. }, _) if !(0.0..=1.0).contains(t) => {
             Err(out_of_bounds("t", *t, "from 0 to 1"))
         }
@@ -115,12 +118,7 @@ fn options(draft: bool) -> MixOptions {
 }
 
 /// Edits a texture, as `asperity edit`.
-fn edit_of(
-    loaded: &Loaded,
-    texture: &Texture,
-    edit: Edit,
-    draft: bool,
-) -> Result<Texture, ApiError> {
+fn edit(loaded: &Loaded, texture: &Texture, edit: Edit, draft: bool) -> Result<Texture, ApiError> {
     let editor = loaded.editor();
     let asset = texture.parsed()?;
     let mix = editor

@@ -201,9 +201,9 @@ impl Studio {
         &self,
         folder: &Folder<'_>,
         stated: Stated<'_>,
-    ) -> Result<Arc<Texture>, ApiError> {
+    ) -> Result<OpenedFile, ApiError> {
         let texture = self.compute(|| folder.texture(stated, self.prompts.get()?))?;
-        Ok(self.keep(texture))
+        Ok(OpenedFile::Texture(self.keep(texture)))
     }
 
     /// The list of prompts that is compiled, if any.

@@ -2,7 +2,7 @@
 
 import { element, find, notify, withdraw } from "../dom.js";
 import { OWN, tagsOf } from "../library/own.js";
-import { letGo, saveLibrary } from "../library/panel.js";
+import { remove, saveLibrary } from "../library/panel.js";
 import { Refusal } from "../server.js";
 import { texts } from "../texts.js";
 
@@ -30,7 +30,7 @@ export class Chosen {
     this.tag = element("input", { type: "text", "aria-label": texts.chosen.tag, placeholder: texts.chosen.tag, spellcheck: "false",
       onkeydown: ({ key }) => key === "Enter" && this.#tag() });
     this.pack = button(texts.chosen.pack, () => saveLibrary(parts.own, parts.server, this.#items));
-    this.drop = button(texts.chosen.drop, () => letGo(parts.own, this.#items), { class: "quiet" });
+    this.drop = button(texts.chosen.drop, () => remove(parts.own, this.#items), { class: "quiet" });
     this.element = element("div", { class: "row chosen", hidden: true }, this.count, this.keep, this.tag, this.pack, this.drop,
       button(texts.chosen.clear, () => this.clear(), { class: "quiet" }));
   }
@@ -63,7 +63,7 @@ export class Chosen {
     return this.several.getAttribute("aria-pressed") === "true";
   }
 
-  /** Chooses a place or lets it go; `to` reaches there from the last one, in the order of `places`. */
+  /** Chooses a place, or no longer; `to` reaches there from the last one, in the order of `places`. */
   toggle(place, places, to = false) {
     const keys = Array.from(places, (each) => this.#key(each));
     const [from, at] = [keys.indexOf(this.#anchor), places.indexOf(place)];
@@ -115,8 +115,7 @@ export class Chosen {
   #tag() {
     const tags = tagsOf(this.tag.value);
     this.tag.value = "";
-    for (const item of this.#items) item.tags = [...new Set([...item.tags, ...tags])];
-    this.#parts.own.emit("change");
+    this.#parts.own.tag(this.#items, tags);
   }
 
   /** Has the server open each, since only what it has opened can be kept. */

@@ -49,8 +49,8 @@ export class OwnLibrary extends Events {
     this.emit("change");
   }
 
-  /** Lets textures go; gives what takes that back. */
-  drop(ids) {
+  /** Removes textures; gives what undoes that. */
+  remove(ids) {
     const before = this.items;
     this.items = before.filter(({ id }) => !ids.has(id));
     this.emit("change");
@@ -69,6 +69,12 @@ export class OwnLibrary extends Events {
 
   change(item, fields) {
     Object.assign(item, fields);
+    this.emit("change");
+  }
+
+  /** Adds tags to some. */
+  tag(items, tags) {
+    for (const item of items) item.tags = [...new Set([...item.tags, ...tags])];
     this.emit("change");
   }
 

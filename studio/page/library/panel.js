@@ -13,14 +13,14 @@ const MOST = 50;
 let removed = [];
 
 /** Removes textures, and offers to undo it. */
-export function letGo(own, items) {
+export function remove(own, items) {
   if (!isNotified("gone-own")) removed = [];
-  removed.push({ items, back: own.drop(new Set(items.map(({ id }) => id))) });
+  removed.push({ items, back: own.remove(new Set(items.map(({ id }) => id))) });
   const run = () => {
     withdraw("gone-own");
     for (const { back } of removed.splice(0).reverse()) back();
   };
-  notify("gone-own", { text: texts.own.dropped(removed.flatMap((each) => each.items)), done: true, action: { label: texts.own.back, run } });
+  notify("gone-own", { text: texts.own.removed(removed.flatMap((each) => each.items)), done: true, action: { label: texts.own.back, run } });
 }
 
 /** Saves items as a library's file, or says why it cannot. */
@@ -34,7 +34,7 @@ export async function saveLibrary(own, server, items) {
   }
 }
 
-/** The button that keeps what is on the surface, or lets it go; `K` does the same. */
+/** The button that keeps what is on the surface, or removes it; `K` does the same. */
 function startStar({ state, own, from }) {
   const button = find("keep");
   const show = () => {
@@ -48,7 +48,7 @@ function startStar({ state, own, from }) {
     const texture = state.get("texture");
     if (!texture || state.get("blind")) return;
     const item = own.of(texture.id);
-    if (item) return letGo(own, [item]);
+    if (item) return remove(own, [item]);
     own.keep([{ texture, from: from(texture) }]);
     announce(texts.own.kept(own.of(texture.id).name));
   };
@@ -64,7 +64,7 @@ function startStar({ state, own, from }) {
 /** The row of an item: its picture, and its fields. */
 function rowOf(item, { server, loader, own, error }) {
   const field = (name, attributes, read) => {
-    const input = element("input", { type: "text", spellcheck: "false", "aria-label": texts.own.fields[name](item.name),
+    const input = element("input", { type: "text", spellcheck: "false",
       placeholder: texts.own.placeholders[name], class: `kept-${name}`, ...attributes, onchange: () => read(input) });
     return input;
   };
@@ -79,17 +79,19 @@ function rowOf(item, { server, loader, own, error }) {
   const tags = field("tags", { maxlength: 200 }, (input) => own.change(item, { tags: tagsOf(input.value) }));
   const show = element("button", { type: "button", class: "tile", "aria-label": texts.own.show(item.name),
     onclick: () => loader.take((signal) => server.shown(item, signal), { kind: "pick", name: item.name }) }, portrait(server, item));
-  const drop = element("button", { type: "button", class: "quiet", "aria-label": texts.own.drop(item.name), title: texts.own.drop(item.name),
+  const drop = element("button", { type: "button", class: "quiet", "aria-label": texts.own.remove(item.name), title: texts.own.remove(item.name),
     onclick: () => {
       const next = row.nextElementSibling ?? row.previousElementSibling;
-      letGo(own, [item]);
+      remove(own, [item]);
       next?.querySelector("button:last-child").focus();
     } }, "×");
   const row = element("li", {}, show, name, note, tags, drop);
   return { row, follow: () => {
     // What a person is writing stays.
-    const values = [[name, item.name], [note, item.note], [tags, item.tags.join(", ")]];
-    for (const [input, value] of values) if (input !== document.activeElement && input.ariaInvalid !== "true") input.value = value;
+    for (const [key, input, value] of [["name", name, item.name], ["note", note, item.note], ["tags", tags, item.tags.join(", ")]]) {
+      if (input !== document.activeElement && input.ariaInvalid !== "true") input.value = value;
+      input.setAttribute("aria-label", texts.own.fields[key](item.name));
+    }
   } };
 }
 

@@ -36,38 +36,28 @@ struct Packed {
     name: String,
 }
 
-/// Opens a file: `{texture}` or `{library}`.
+/// Opens a file, or the files of a folder: `{texture}` or `{library}`.
 pub(super) fn open(
     studio: &Studio,
     head: &Head,
     body: &mut Body<'_, '_>,
+    is_folder: bool,
 ) -> Result<Answer, ApiError> {
     let name = file_name(&head.target)?;
-    let stated = stated(&head.target);
+    let stated = |key| Some((key, decoded(queried(&head.target, key)?)?));
+    let stated: Vec<_> = KEYS.into_iter().filter_map(stated).collect();
     let kept = studio.send(|| {
         let bytes = body.read(FILE_BYTES)?;
-        studio.open(&name, bytes, &stated)
+        if is_folder {
+            studio.open_folder(&Folder::parse(&name, &bytes)?, &stated)
+        } else {
+            studio.open(&name, bytes, &stated)
+        }
     })?;
     Ok(Answer::json(match kept {
         OpenedFile::Texture(texture) => format!("{{\"texture\":{}}}", studio.shown(&texture)),
         OpenedFile::Library(named) => json!({ "library": Library::of(&named) }).to_string(),
     }))
-}
-
-/// Opens a folder: `{texture}`.
-pub(super) fn open_folder(
-    studio: &Studio,
-    head: &Head,
-    body: &mut Body<'_, '_>,
-) -> Result<Answer, ApiError> {
-    let name = file_name(&head.target)?;
-    let stated = stated(&head.target);
-    let texture = studio.send(|| {
-        let bytes = body.read(FILE_BYTES)?;
-        studio.open_folder(&Folder::parse(&name, &bytes)?, &stated)
-    })?;
-    let shown = studio.shown(&texture);
-    Ok(Answer::json(format!("{{\"texture\":{shown}}}")))
 }
 
 /// What the page shows of a texture, `ID.page.json`, or a file of it, `ID.ENDING`.
@@ -105,12 +95,6 @@ pub(super) fn queried<'a>(target: &'a str, key: &str) -> Option<&'a str> {
     let (_, query) = target.split_once('?')?;
     let mut pairs = query.split('&').filter_map(|pair| pair.split_once('='));
     pairs.find_map(|(found, value)| (found == key).then_some(value))
-}
-
-/// What is stated of pictures.
-fn stated(target: &str) -> Vec<(&'static str, String)> {
-    let stated = |key| Some((key, decoded(queried(target, key)?)?));
-    KEYS.into_iter().filter_map(stated).collect()
 }
 
 /// The name of the file that is opened, which errors repeat: `name` of the query.

@@ -69,8 +69,8 @@ pub(crate) fn answer(
             let found = requests::link(studio, &body.read(requests::JSON_BYTES)?)?;
             Ok(Answer::json(found))
         }
-        "api/folder" if posts => files::open_folder(studio, head, body),
-        "api/open" if posts => files::open(studio, head, body),
+        "api/folder" if posts => files::open(studio, head, body, true),
+        "api/open" if posts => files::open(studio, head, body, false),
         "api/pack" if posts => files::pack(studio, body),
         "api/device/ticks" if reads => device::requests::ticks(studio.device(), &head.target),
         "api/device/ticks" => Ok(Answer::only("GET, HEAD")),

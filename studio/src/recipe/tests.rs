@@ -162,3 +162,31 @@ fn what_no_one_can_type_has_no_recipe() {
     let from = (MOST - 1).to_string();
     assert!(edited(&last, &from, "more", "cork", softer(1.0)).is_none());
 }
+
+#[test]
+fn a_list_of_which_two_textures_come_is_built_once() {
+    let built = |id: &str, name: &str| {
+        let list = Opened {
+            path: "my rooms.csv".into(),
+            id: "l".into(),
+        };
+        let texture = name.into();
+        Recipe::new([], id, name, Operation::Build { list, texture }).unwrap()
+    };
+    let (wall, floor) = (built("w", "wall"), built("f", "-floor"));
+    let operation = Operation::Blend {
+        a: "w".into(),
+        b: "f".into(),
+        t: 0.5,
+        draft: false,
+    };
+    let both = Recipe::new([Some(&wall), Some(&floor)], "b", "both", operation).unwrap();
+    let lines = [
+        "asperity build 'my rooms.csv' -o 'my rooms.aspl'",
+        "asperity extract 'my rooms.aspl' wall -o wall.asp",
+        "asperity extract -o _-floor.asp -- 'my rooms.aspl' -floor",
+        "asperity blend wall.asp _-floor.asp -t 0.5 -o both.asp",
+    ];
+    assert_eq!(both.command().unwrap().lines().collect::<Vec<_>>(), lines);
+    assert!(both.link().is_none());
+}
