@@ -88,7 +88,7 @@ export class Loader extends Events {
     const asset = await server.asset(texture, signal);
     sound.play(asset, texture, base);
     state.set({ texture, asset });
-    Promise.all(["png", "normal.png"].map((ending) => server.download(texture, ending, signal)))
+    Promise.all(["unlit.png", "normal.png"].map((ending) => server.download(texture, ending, signal)))
       .then(([picture, normals]) => !signal.aborted && surface.show(picture, normals, texture.preview.width_mm))
       .then(() => withdraw("picture"))
       .catch(({ name, help, message }) => {

@@ -45,9 +45,9 @@ export function startSoundPanel({ sound, hand }) {
   const equal = find("equal");
   equal.title = texts.sound.equal_title;
   equal.checked = recall("equal", true) === true;
-  const turned = () => (find("turned").textContent = sound.equal && sound.trim_db ? texts.sound.turned(sound.trim_db) : "");
+  const turned = () => (find("turned").textContent = sound.trim_db ? texts.sound.turned(sound.trim_db) : "");
   const choose = () => {
-    sound.equal = equal.checked;
+    sound.balance(equal.checked);
     turned();
   };
   equal.addEventListener("change", () => {

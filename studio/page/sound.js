@@ -6,6 +6,7 @@ import { buildChain, FADE_S } from "./output/chain.js";
 import { openContext, SoundFailure } from "./output/context.js";
 import { Loudness } from "./output/loudness.js";
 import { MODES } from "./output/modes.js";
+import { Renderer } from "./output/renderer.js";
 
 /** How long a browser may take to start, ms, until that is said. */
 const PATIENCE_MS = 3000;
@@ -27,7 +28,6 @@ export class Sound extends Events {
   /** What the sound is for, of `MODES`, and the level, dB of full scale. */
   mode = "plain";
   level_db = MODES.plain.start_db;
-  latency_s = 0;
   /** Whether the browser lets the page sound before anybody has touched it. */
   allowed = false;
   /** Stopped by a person, so that only a person starts it again. */
@@ -44,22 +44,24 @@ export class Sound extends Events {
   #path = null;
   /** The last events of the hand. */
   #touch = null;
-  #asset = null;
-  #loaded = false;
-  /** Textures that were sent to the renderer. */
-  #sent = 0;
+  #renderer = new Renderer();
   #file;
 
   /** `file` gives the bytes of a file of the page. */
   constructor(file) {
     super();
     this.#file = file;
+    const renderer = this.#renderer;
+    for (const event of ["ticks", "path", "loaded", "refused"]) renderer.on(event, (detail) => this.emit(event, detail));
+    renderer.on("ready", () => this.emit("state", this.state));
+    renderer.on("plays", () => this.chain.trim(this.trim_db, CROSS_FADE_S));
+    renderer.on("failure", (detail) => this.#fail(new SoundFailure("failed", detail)));
   }
 
   /** From the hand to the sound as far as the browser knows, s. */
   get total_latency_s() {
     const { baseLatency = 0, outputLatency = 0 } = this.#context ?? {};
-    return this.latency_s + (outputLatency || baseLatency);
+    return this.#renderer.latency_s + (outputLatency || baseLatency);
   }
 
   /** Builds the nodes, silent, so that the first stroke is heard. */
@@ -118,13 +120,9 @@ export class Sound extends Events {
     this.emit("state", this.state);
   }
 
-  /** Whether all textures are equally loud, rather than each as strong as it is. */
-  get equal() {
-    return this.#loudness.equal;
-  }
-
-  set equal(equal) {
-    this.#loudness.equal = equal;
+  /** Plays all textures equally loud, or each as strong as it is. */
+  balance(equal) {
+    this.#loudness.balance(equal);
     this.chain?.trim(this.trim_db);
   }
 
@@ -141,24 +139,23 @@ export class Sound extends Events {
 
   /** Plays another texture: from its first tick on, or by a cross-fade where one plays; `base` is what its sliders began at. */
   play(asset, texture, base = texture) {
-    this.#asset = asset;
     const { rises, louder_db } = this.#loudness.play(texture, base);
     if (louder_db > 0) this.emit("louder", louder_db);
     // What gets quieter does so before the cross-fade, and what gets louder after it.
     if (!rises) this.chain?.trim(this.trim_db);
-    if (this.chain) this.#send();
+    this.#renderer.play(asset, this.state === "on");
   }
 
   /** Events of the hand; nobody hears them while the sound is off. The touch that starts it is felt when it is on. */
   hand(events) {
-    if (this.state === "on") this.#post({ type: "hand", events });
+    if (this.state === "on") this.#renderer.post({ type: "hand", events });
     this.#touch = events;
   }
 
   /** The path of the hand that moves by itself (`path.js`), as soon as the sound is on; null lifts it. */
   follow(path) {
     this.#path = path;
-    if (this.state === "on") this.#post({ type: "path", path, t_s: now_s() });
+    if (this.state === "on") this.#renderer.post({ type: "path", path, t_s: now_s() });
   }
 
   /** Plays on another device; false where that fails. */
@@ -172,7 +169,10 @@ export class Sound extends Events {
       await this.#context?.setSinkId?.("").catch(() => {});
       return false;
     } finally {
-      this.#reroute();
+      // Another device may have other channels.
+      this.chain?.route();
+      if (this.state === "on") this.#turn(1);
+      this.emit("state", this.state);
     }
   }
 
@@ -181,10 +181,7 @@ export class Sound extends Events {
     return this.state === "on" ? this.chain.measure() : { peak: 0, rms: 0 };
   }
 
-  #built() {
-    this.#building ??= this.#build();
-    return this.#building;
-  }
+  #built = () => (this.#building ??= this.#build());
 
   async #build() {
     const context = openContext((opened) => (this.#context = opened));
@@ -196,50 +193,13 @@ export class Sound extends Events {
 
     // Another mode may have been chosen meanwhile, and another device have other channels.
     this.chain = chain;
-    this.#loaded = false;
     chain.mode = this.mode;
     chain.trim(this.trim_db);
     if (this.#gains_db) chain.equaliser.gains_db = this.#gains_db;
-    const { renderer, limiter } = chain;
-    renderer.port.onmessage = ({ data }) => this.#heard(data);
-    limiter.port.onmessage = ({ data }) => this.emit("limit", data.reduction_db);
+    chain.limiter.port.onmessage = ({ data }) => this.emit("limit", data.reduction_db);
     for (const node of chain.worklets) node.onprocessorerror = () => this.#fail(new SoundFailure("failed", "processor"));
     context.onstatechange = () => this.#changed(context);
-    this.#post({ type: "record", on: true });
-    if (this.#asset) this.#send();
-  }
-
-  /** Another device may have other channels. */
-  #reroute() {
-    if (!this.chain) return;
-    this.chain.route();
-    if (this.state === "on") this.#turn(1);
-    this.emit("state", this.state);
-  }
-
-  #send() {
-    this.#post({ type: this.#loaded && this.state === "on" ? "swap" : "load", asset: this.#asset, id: ++this.#sent });
-    this.#loaded = true;
-  }
-
-  #post(message) {
-    this.chain.renderer.port.postMessage(message);
-  }
-
-  #heard(message) {
-    if (message.type === "ticks") return this.emit("ticks", message);
-    if (message.type === "path") return this.emit("path", message.phase);
-    const { about, name, latency_s } = message;
-    if (about === "module" && name === "ok") this.latency_s = latency_s;
-    else if (about === "load" || about === "swap") {
-      if (name === "ok") {
-        if (message.id === this.#sent) this.chain.trim(this.trim_db, CROSS_FADE_S);
-        this.emit("loaded", message);
-      }
-      // A later texture took its place.
-      else if (name !== "replaced") this.emit("refused", message);
-    } else if (name !== "ok") this.#fail(new SoundFailure("failed", `${about}: ${name}`));
-    if (about === "module") this.emit("state", this.state);
+    this.#renderer.connect(chain.renderer.port);
   }
 
   #changed(context) {
@@ -269,6 +229,7 @@ export class Sound extends Events {
     this.#context = null;
     this.#building = null;
     this.chain = null;
+    this.#renderer.disconnect();
     if (!context) return;
     context.onstatechange = null;
     context.close().catch(() => {});

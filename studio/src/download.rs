@@ -20,6 +20,8 @@ pub(crate) enum Download {
     Json,
     /// Its picture, stored or drawn.
     Picture,
+    /// The colours that the page lights.
+    Unlit,
     Normals,
     Heights,
     /// As `asperity plot`.
@@ -40,6 +42,7 @@ impl Download {
             "worklet.asp" => Self::Worklet,
             "json" => Self::Json,
             "png" => Self::Picture,
+            "unlit.png" => Self::Unlit,
             "normal.png" => Self::Normals,
             "height.png" => Self::Heights,
             "plot.png" => Self::Plot,
@@ -57,7 +60,7 @@ impl Download {
     pub(crate) const fn content_type(self) -> &'static str {
         match self {
             Self::Json => "application/json",
-            Self::Picture | Self::Normals | Self::Heights | Self::Plot => "image/png",
+            Self::Picture | Self::Unlit | Self::Normals | Self::Heights | Self::Plot => "image/png",
             Self::Sound | Self::Export(Format::Clip(ClipFormat::Wav)) => "audio/wav",
             _ => "application/octet-stream",
         }
@@ -73,6 +76,7 @@ impl Download {
             Self::Worklet => texture.worklet()?,
             Self::Json => texture.inspected().into_bytes().into(),
             Self::Picture => texture.picture()?,
+            Self::Unlit => texture.pictures()?.unlit,
             Self::Normals => texture.pictures()?.normal,
             Self::Heights => texture.pictures()?.height,
             Self::Plot => {

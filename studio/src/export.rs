@@ -29,8 +29,8 @@ use std::{
 };
 use thiserror::Error;
 
-/// File that the page itself also loads.
-const LOADED: &str = "worklet.asp";
+/// Files that the page itself also loads.
+const LOADED: [&str; 2] = ["worklet.asp", "unlit.png"];
 /// Before which the policy stands in the page, since a static server sends none.
 const BEFORE_POLICY: &str = "<meta name=\"viewport\"";
 
@@ -158,7 +158,7 @@ impl Writer {
         let is_new = textures.insert(id.to_owned());
         drop(textures);
         if is_new {
-            for ending in OFFERED.into_iter().chain([LOADED]) {
+            for ending in OFFERED.into_iter().chain(LOADED) {
                 if let Some(file) = Download::of(ending) {
                     let bytes = file.bytes(&texture).map_err(fail)?;
                     self.write(&format!("api/texture/{id}.{ending}"), &bytes)?;

@@ -37,7 +37,7 @@ pub(crate) const FILES: &[File] = files! {
         "library/own.js" "library/panel.js"
         "offline/module.js" "offline/offline.js" "offline/worker.js"
         "output/chain.js" "output/context.js" "output/equaliser-panel.js" "output/equaliser.js" "output/loudness.js" "output/modes.js" "output/motors.js"
-        "output/panel.js" "output/response.js" "output/shift.js" "output/tones.js"
+        "output/panel.js" "output/renderer.js" "output/response.js" "output/shift.js" "output/tones.js"
         "plots/axes.js" "plots/controls.js" "plots/csv.js" "plots/fft.js" "plots/field.js"
         "plots/figure.js" "plots/force.js" "plots/friction.js" "plots/models.js" "plots/plane-pointer.js"
         "plots/plane.js" "plots/plots.js" "plots/ring.js" "plots/scale.js" "plots/scope.js"

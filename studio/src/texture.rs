@@ -48,6 +48,8 @@ pub(crate) struct Texture {
 pub(crate) struct Pictures {
     /// Its appearance: as stored in the asset, or drawn where the asset has none.
     pub(crate) color: Arc<[u8]>,
+    /// The same without its light, where it was drawn here: what the page lights by the normals.
+    pub(crate) unlit: Arc<[u8]>,
     /// Normals in tangent space, green up.
     pub(crate) normal: Arc<[u8]>,
     /// Heights, linear, 16 bits.
@@ -280,10 +282,20 @@ impl Texture {
         let sizes = preview::SIZES;
         let size_px = self.pixels.clamp(*sizes.start(), *sizes.end());
         let picture = preview::draw(&raise(asset), size_px)?;
+        let drawn = || picture.compact_png().map_err(not_encoded);
+        // A picture from elsewhere has its light for good.
+        let foreign = match stored {
+            Some(png) if png != drawn()? => Some(png),
+            _ => None,
+        };
         Ok(Pictures {
             color: match stored {
                 Some(png) => png.into(),
                 None => picture.png().map_err(not_encoded)?.into(),
+            },
+            unlit: match foreign {
+                Some(png) => png.into(),
+                None => picture.unlit_png().map_err(not_encoded)?.into(),
             },
             normal: picture.normal_png().map_err(not_encoded)?.into(),
             height: picture.height_png().map_err(not_encoded)?.into(),

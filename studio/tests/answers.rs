@@ -97,7 +97,7 @@ fn a_prompt_gives_the_bytes_and_the_reports_of_the_compiler() {
                 .expect("JSON")
                 .to_string()
         );
-        for map in ["normal.png", "height.png"] {
+        for map in ["unlit.png", "normal.png", "height.png"] {
             let reply = file(map);
             assert_eq!(preview::width(&reply.body), Some(preview::SIZE), "{map}");
             assert_eq!(reply.header("content-type"), Some("image/png"));

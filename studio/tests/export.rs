@@ -128,7 +128,7 @@ fn the_files_are_the_answers_of_a_server_and_name_no_folder() {
             assert_eq!(anywhere(shown.clone(), &folder), anywhere(picked, &folder));
             let id = shown["id"].as_str().expect("a name");
             assert_eq!(columns["textures"][at], id);
-            for ending in ["asp", "worklet.asp", "png", "normal.png"] {
+            for ending in ["asp", "worklet.asp", "png", "unlit.png", "normal.png"] {
                 let file = format!("api/texture/{id}.{ending}");
                 assert!(site.get(&file).body == found[&file], "{file}");
             }
@@ -157,7 +157,7 @@ fn another_folder_gives_the_same_bytes_and_twins_share_their_files() {
     let textures = written[0]
         .keys()
         .filter(|name| name.starts_with("api/texture/"));
-    assert_eq!(textures.count(), 4);
+    assert_eq!(textures.count(), 5);
 }
 
 #[test]

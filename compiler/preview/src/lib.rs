@@ -119,6 +119,14 @@ impl Picture {
         compact_png(&self.pixels, self.size(), &[])
     }
 
+    /// The colours without the light, as PNG with a palette: what [`Self::normal_png`] is for.
+    ///
+    /// # Errors
+    /// [`EncodeError`] when the encoder fails.
+    pub fn unlit_png(&self) -> Result<Vec<u8>, EncodeError> {
+        compact_png(&light::unlit(&self.surface), self.size(), &[])
+    }
+
     /// Heights as PNG: 16 bits, linear, from the lowest to the highest.
     ///
     /// # Errors

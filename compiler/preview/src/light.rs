@@ -1,7 +1,7 @@
 //! Shading of a surface by a single light from the upper left.
 
 use crate::{
-    color::{encoded, lit, mix},
+    color::{Rgb, encoded, lit, mix},
     surface::{RUN, Surface},
 };
 use rayon::prelude::*;
@@ -35,7 +35,7 @@ pub(crate) fn slopes(surface: &Surface) -> Vec<(f32, f32)> {
 /// The picture of a surface as sRGB.
 pub(crate) fn shade(surface: &Surface) -> Vec<[u8; 3]> {
     let slopes = slopes(surface);
-    let mean = blurred(surface);
+    let hollows = hollows(surface);
     let middle = {
         let (x, y, z) = (TO_LIGHT[0], TO_LIGHT[1], TO_LIGHT[2] + 1.0);
         let length = (x * x + y * y + z * z).sqrt();
@@ -49,14 +49,13 @@ pub(crate) fn shade(surface: &Surface) -> Vec<[u8; 3]> {
     let texels = surface.texels.par_iter().with_min_len(RUN);
     texels
         .zip(slopes)
-        .zip(mean)
-        .map(|((texel, (dx, dy)), mean)| {
+        .zip(hollows)
+        .map(|((texel, (dx, dy)), hollow)| {
             let length = (dx * dx + dy * dy + 1.0).sqrt();
             let along = |way: [f32; 3]| (way[2] - way[0] * dx - way[1] * dy) / length;
             let facing = along(TO_LIGHT).max(0.0) / TO_LIGHT[2];
-            let hollow = (1.0 + HOLLOW * 100.0 * (texel.height - mean)).clamp(0.45, 1.25);
             let light = (AMBIENT + (1.0 - AMBIENT) * facing) * hollow;
-            let mut color = lit(texel.color, light);
+            let color = lit(texel.color, light);
             let shine = if texel.gloss > 0.0 {
                 let flat = if texel.gloss == usual {
                     usual_flat
@@ -68,14 +67,34 @@ pub(crate) fn shade(surface: &Surface) -> Vec<[u8; 3]> {
             } else {
                 0.0
             };
-            let shine = shine + texel.glow;
-            if shine > 0.0 {
-                color = mix(color, [1.0; 3], shine * 0.85);
-            } else {
-                color = lit(color, 1.0 + 0.6 * shine);
-            }
-            encoded(color)
+            encoded(shone(color, shine + texel.glow))
         })
+        .collect()
+}
+
+/// The colours of a surface as sRGB, for a renderer that brings its own light: hollows are dark and reflections bright,
+/// but no side faces a light.
+pub(crate) fn unlit(surface: &Surface) -> Vec<[u8; 3]> {
+    let texels = surface.texels.iter().zip(hollows(surface));
+    texels
+        .map(|(texel, hollow)| encoded(shone(lit(texel.color, hollow), texel.glow)))
+        .collect()
+}
+
+/// A colour with a share of white light on it, or with less of its own where that is negative.
+fn shone(color: Rgb, shine: f32) -> Rgb {
+    if shine > 0.0 {
+        mix(color, [1.0; 3], shine * 0.85)
+    } else {
+        lit(color, 1.0 + 0.6 * shine)
+    }
+}
+
+/// What the heights around leave of the light that falls on each pixel.
+fn hollows(surface: &Surface) -> Vec<f32> {
+    let texels = surface.texels.iter().zip(blurred(surface));
+    texels
+        .map(|(texel, mean)| (1.0 + HOLLOW * 100.0 * (texel.height - mean)).clamp(0.45, 1.25))
         .collect()
 }
 

@@ -213,7 +213,7 @@ class Points extends Figure {
 
 /** The figure with the choice of its axes, in an element of the document, whose colours it takes: { show, choose }. */
 export function mountScatter(root, pick, address) {
-  const stage = new Stage(root, () => false);
+  const stage = new Stage(root, null, () => false);
   const points = new Points(stage, pick, address);
   const choice = (which, label) => element("label", {}, label, " ", element("select", {
     onchange: ({ target }) => {

@@ -33,12 +33,8 @@ export class Loudness {
   /** Level of what was played last, as strong as it is, dB. */
   #level_db = TARGET_DB - MOST_UP_DB;
 
-  /** Whether all textures are equally loud, rather than each as strong as it is. */
-  get equal() {
-    return this.#equal;
-  }
-
-  set equal(equal) {
+  /** Makes all textures equally loud, or leaves each as strong as it is. */
+  balance(equal) {
     this.#equal = equal;
     this.#level_db = levelOf(this.#texture) ?? this.#level_db;
     this.#trim();

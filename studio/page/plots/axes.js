@@ -9,7 +9,8 @@ const ACROSS_PX = 48;
 const DOWN_PX = 30;
 
 /** Marks of an axis over so many pixels, with their texts. */
-function marksOf({ low, high, log, every }, pixels, room) {
+function marksOf({ low, high, log, every, ends }, pixels, room) {
+  if (ends) return [...new Set([low, 0, high])].map((value) => ({ value, text: value === 0 && low < 0 ? "" : `${value}`.replace("-", "−") }));
   const most = Math.max(3, Math.floor(pixels / room));
   if (log) {
     let steps = logSteps(low, high);
@@ -42,16 +43,17 @@ export function signed(value, decimals) {
 
 /**
  * Draws two axes into `area` (default: the whole figure) and returns { box, x, y }: where the data goes, and its scales.
- * An axis is { low, high, title, log?, every? }; the title of y stands above it. With `equal`, a unit is as long on both,
+ * An axis is { low, high, title, log?, every?, ends?, bare? }; the title of y stands above it. One with `ends` has numbers
+ * there alone, a `bare` x has none. With `equal`, a unit is as long on both,
  * and one of the axes shows more than was asked for.
  */
-export function axes(ctx, figure, x, y, { area = undefined, right = GAP_PX + 4, grid = true, frame = true, equal = false } = {}) {
+export function axes(ctx, figure, x, y, { area = undefined, left = undefined, right = GAP_PX + 4, grid = true, frame = true, equal = false } = {}) {
   const { palette } = figure.stage;
   const within = area ?? { left: 0, top: 0, right: figure.width, bottom: figure.height };
   const top = within.top + (y.title ? ROW_PX : GAP_PX);
-  const bottom = within.bottom - ROW_PX - (x.title ? ROW_PX : 0);
+  const bottom = within.bottom - (x.bare ? 4 : ROW_PX) - (x.title ? ROW_PX : 0);
   const widest = () => Math.max(...marksOf(y, bottom - top, DOWN_PX).map(({ text }) => ctx.measureText(text).width));
-  const box = { left: Math.ceil(within.left + widest() + GAP_PX + 2), top, right: within.right - right, bottom };
+  const box = { left: Math.ceil(within.left + (left ?? widest()) + GAP_PX + 2), top, right: within.right - right, bottom };
   if (equal) {
     const per_px = Math.max((x.high - x.low) / (box.right - box.left), (y.high - y.low) / (bottom - top));
     x = widened(x, per_px * (box.right - box.left));
@@ -72,6 +74,7 @@ export function axes(ctx, figure, x, y, { area = undefined, right = GAP_PX + 4, 
       ctx.moveTo(at, box.top);
       ctx.lineTo(at, box.bottom);
     }
+    if (x.bare) continue;
     const half = ctx.measureText(text).width / 2;
     ctx.fillText(text, Math.min(Math.max(at, within.left + half), within.right - half), box.bottom + ROW_PX / 2 + 1);
   }

@@ -17,9 +17,11 @@ export class Figure {
   read_s = -Infinity;
   least_s = 0;
 
-  /** `texts` has `title`, `hint`; `legend` maps classes of swatches to texts. */
-  constructor(stage, name, texts, legend = {}) {
+  /** `texts` has `title`, `hint` and `legend`, which maps classes of swatches to texts. */
+  constructor(stage, name, texts) {
     this.stage = stage;
+    this.scope = stage.scope;
+    this.texts = texts;
     this.title = texts.title;
     const hint = texts.hint && `plot-hint-${name}`;
     this.canvas = element("canvas", { class: `plot-canvas plot-canvas-${name}`, role: "img", "aria-label": texts.title, tabindex: 0,
@@ -29,7 +31,7 @@ export class Figure {
         stage.announce(this.summary());
       } });
     this.readout = element("span", { class: "plot-readout" });
-    const items = Object.entries(legend).map(([swatch, text]) =>
+    const items = Object.entries(texts.legend ?? {}).map(([swatch, text]) =>
       element("li", {}, element("span", { class: `plot-swatch plot-swatch-${swatch}`, "aria-hidden": "true" }), text));
     this.element = element("figure", { class: `plot plot-${name}` },
       element("figcaption", { class: "plot-caption" }, element("span", { class: "plot-title" }, texts.title), this.readout), this.canvas,

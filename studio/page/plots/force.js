@@ -14,13 +14,8 @@ const LEAST_N = 0.5;
 const BETWEEN_PX = 14;
 
 export class Force extends Figure {
-  constructor(stage, scope, texts) {
-    super(stage, "force", texts, texts.legend);
-    this.scope = scope;
-    this.texts = texts;
-    this.least_s = 1 / 30;
-    this.span = new Span(LEAST_N);
-  }
+  least_s = 1 / 30;
+  span = new Span(LEAST_N);
 
   draw(ctx, now_s) {
     const { ring, now, inspect } = this.scope;

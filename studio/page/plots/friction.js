@@ -18,14 +18,9 @@ export function coefficients({ mu, law }) {
 }
 
 export class Friction extends Figure {
-  constructor(stage, scope, texts) {
-    super(stage, "friction", texts, texts.legend);
-    this.scope = scope;
-    this.texts = texts;
-    this.least_s = 1 / 30;
-    this.normal = new Span(LEAST_N);
-    this.tangential = new Span(LEAST_N / 2);
-  }
+  least_s = 1 / 30;
+  normal = new Span(LEAST_N);
+  tangential = new Span(LEAST_N / 2);
 
   draw(ctx, now_s) {
     const { ring, now, inspect } = this.scope;

@@ -30,13 +30,12 @@ function strokeTwice(ctx, ...strokes) {
 }
 
 export class Plane extends Figure {
-  constructor(stage, scope, texts, chosen) {
+  placed = null;
+
+  constructor(stage, name, texts, chosen) {
     const contour = texts.legend.contour({ every_db: CONTOUR_DB, floor_hz: FLOOR_HZ });
-    super(stage, "plane", texts, { ...texts.legend, contour });
-    this.scope = scope;
-    this.texts = texts;
+    super(stage, name, { ...texts, legend: { ...texts.legend, contour } });
     this.pointer = new PlanePointer(this, chosen);
-    this.placed = null;
   }
 
   draw(ctx, now_s) {

@@ -31,7 +31,7 @@ export function mountPlots(container, runtime, texts) {
     for (const figure of figures) figure.dirty = true;
   };
 
-  const stage = new Stage(root, (now_s) => {
+  const stage = new Stage(root, scope, (now_s) => {
     const { moved, goes_on } = scope.advance(now_s);
     if (moved) live();
     return goes_on;
@@ -46,15 +46,15 @@ export function mountPlots(container, runtime, texts) {
     scope.freeze(on);
     showMoment();
   };
-  const plane = new Plane(stage, scope, texts.plane, () => {
+  const plane = new Plane(stage, "plane", texts.plane, () => {
     plane.invalidate();
     spectrum.invalidate();
   });
-  const spectrum = new Spectrum(stage, scope, texts.spectrum);
-  const waveform = new Waveform(stage, scope, texts.waveform);
-  const force = new Force(stage, scope, texts.force);
-  const friction = new Friction(stage, scope, texts.friction);
-  const strip = new Strip(stage, scope, texts.strip, showMoment);
+  const spectrum = new Spectrum(stage, "spectrum", texts.spectrum);
+  const waveform = new Waveform(stage, "waveform", texts.waveform);
+  const force = new Force(stage, "force", texts.force);
+  const friction = new Friction(stage, "friction", texts.friction);
+  const strip = new Strip(stage, "strip", texts.strip, showMoment);
   const controls = new Controls(scope, texts.controls, { freeze, scrolled: showMoment });
   strip.element.append(controls.element);
   figures = [plane, spectrum, waveform, force, friction, strip];

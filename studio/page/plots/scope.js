@@ -17,11 +17,6 @@ export class Playhead {
     this.clock_s = undefined;
   }
 
-  /** Goes to a tick at once. */
-  jump(tick) {
-    this.tick = tick;
-  }
-
   /** The tick to show at `now_s` of ticks `[first, end)`; it stops at the newest one. */
   advance(now_s, first, end) {
     const passed_s = this.clock_s === undefined ? 0 : Math.max(0, now_s - this.clock_s);
@@ -76,7 +71,7 @@ export class Scope {
   add(message) {
     // What is frozen stays. A table has no gaps, so the run that follows begins anew.
     if (this.frozen) return;
-    if (this.ring.add(message)) this.playhead.jump(this.ring.first);
+    if (this.ring.add(message)) this.playhead.tick = this.ring.first;
   }
 
   /** Moves on to `now_s`; returns whether something else is shown, and whether more is to come. */
@@ -88,13 +83,13 @@ export class Scope {
 
   freeze(on) {
     this.frozen = on;
-    if (on) this.playhead.jump(this.ring.end);
+    if (on) this.playhead.tick = this.ring.end;
   }
 
   /** While frozen, shows what was at a tick. */
   scroll(tick) {
     const { first, end } = this.ring;
-    this.playhead.jump(Math.min(Math.max(Math.round(tick), first), end));
+    this.playhead.tick = Math.min(Math.max(Math.round(tick), first), end);
   }
 
   /** The hand at the tick shown: null before the first one. */

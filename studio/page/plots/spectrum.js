@@ -8,8 +8,6 @@ import { FLAG } from "./ring.js";
 import { Span } from "./scale.js";
 
 const WINDOW_S = 0.5;
-/** Spectra a second, at most. */
-const LEAST_S = 1 / 20;
 /** Powers follow with this time constant, s. */
 const SMOOTH_S = 0.3;
 const LOW_HZ = 10;
@@ -24,13 +22,9 @@ const ROUND_DB = 10;
 const upTo10 = (db) => ROUND_DB * Math.ceil((db + 3) / ROUND_DB);
 
 export class Spectrum extends Figure {
-  constructor(stage, scope, texts) {
-    super(stage, "spectrum", texts, texts.legend);
-    this.scope = scope;
-    this.texts = texts;
-    this.least_s = LEAST_S;
-    this.last_s = -Infinity;
-  }
+  /** Spectra a second, at most. */
+  least_s = 1 / 20;
+  last_s = -Infinity;
 
   /** A new texture or another rate: the transform, the loudest model, and how far the frequencies go. */
   renew() {

@@ -45,8 +45,9 @@ const CALM_S = 0.25;
 const DESCRIBE_S = 1;
 
 export class Stage {
-  /** `advance(now_s)` runs before every frame and says whether another one is due. */
-  constructor(container, advance) {
+  /** `scope` is what all figures look at; `advance(now_s)` runs before every frame and says whether another one is due. */
+  constructor(container, scope, advance) {
+    this.scope = scope;
     this.advance = advance;
     this.figures = new Set();
     this.frame = 0;

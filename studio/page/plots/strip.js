@@ -1,6 +1,6 @@
 // A strip of the last ten seconds, a lane for each of five numbers, as least and greatest values.
 
-import { clipped } from "./axes.js";
+import { axes, clipped } from "./axes.js";
 import { Figure } from "./figure.js";
 import { BLOCK, COLUMN } from "./ring.js";
 import { Span } from "./scale.js";
@@ -8,8 +8,7 @@ import { Span } from "./scale.js";
 const WINDOW_S = 10;
 /** A column of the picture, CSS pixels, as near as whole blocks of ticks come to it. */
 const COLUMN_PX = 2;
-const TITLE_PX = 18;
-const AXIS_PX = 38;
+const AXIS_PX = 32;
 /** Keys scroll by so much, s. */
 const KEYS_S = { ArrowLeft: -0.1, ArrowRight: 0.1, PageUp: -2, PageDown: 2, Home: -Infinity, End: Infinity };
 
@@ -23,14 +22,13 @@ const LANES = [
 ];
 
 export class Strip extends Figure {
+  least_s = 1 / 60;
+  lanes = LANES.map((lane) => ({ signed: false, ...lane, span: new Span(lane.least), range: null, end: lane.least }));
+
   /** `scrolled` is called when keys or a pointer showed another moment. */
-  constructor(stage, scope, texts, scrolled) {
-    super(stage, "strip", texts);
-    this.scope = scope;
-    this.texts = texts;
+  constructor(stage, name, texts, scrolled) {
+    super(stage, name, texts);
     this.scrolled = scrolled;
-    this.least_s = 1 / 60;
-    this.lanes = LANES.map((lane) => ({ signed: false, ...lane, span: new Span(lane.least), range: null, end: lane.least }));
     this.#listen();
   }
 
@@ -58,55 +56,14 @@ export class Strip extends Figure {
   #axes(ctx) {
     const lane_px = (this.height - AXIS_PX) / this.lanes.length;
     // Numbers of all lanes stand in the room of the widest one.
-    const left =
-      Math.max(...this.lanes.map(({ end, signed }) => ctx.measureText(`${signed ? "−" : ""}${end}`).width)) + 8;
+    const widest = ({ end, signed }) => ctx.measureText(`${signed ? "−" : ""}${end}`).width;
+    const left = Math.max(...this.lanes.map(widest));
     return this.lanes.map(({ name, end, signed }, n) => {
       const last = n === this.lanes.length - 1;
-      const top = n * lane_px;
-      const box = { left, top: top + TITLE_PX, right: this.width - 10, bottom: top + lane_px - 4 };
-      const placed = {
-        box,
-        x: (s) => box.right + (s / WINDOW_S) * (box.right - box.left),
-        y: (value) => {
-          const low = signed ? -end : 0;
-          return box.bottom - ((value - low) / (end - low)) * (box.bottom - box.top);
-        },
-      };
-      this.#frame(ctx, placed, signed ? [-end, 0, end] : [0, end], last);
-      ctx.fillStyle = this.stage.palette.ink;
-      ctx.textAlign = "left";
-      ctx.fillText(this.texts.lanes[name], box.left, top + TITLE_PX / 2 + 1);
-      return placed;
+      const area = { left: 0, top: n * lane_px, right: this.width, bottom: (n + 1) * lane_px + (last ? AXIS_PX : 0) };
+      return axes(ctx, this, { low: -WINDOW_S, high: 0, every: 1, title: last ? this.texts.time_axis : "", bare: !last },
+        { low: signed ? -end : 0, high: end, title: this.texts.lanes[name], ends: true }, { area, left, frame: false });
     });
-  }
-
-  #frame(ctx, { box, x, y }, values, last) {
-    const { palette } = this.stage;
-    ctx.strokeStyle = palette.grid;
-    ctx.beginPath();
-    for (const value of values) {
-      const at = Math.round(y(value)) + 0.5;
-      ctx.moveTo(box.left, at);
-      ctx.lineTo(box.right, at);
-    }
-    const every = box.right - box.left > 500 ? 1 : 2;
-    for (let s = -WINDOW_S; s <= 0; s += every) {
-      ctx.moveTo(Math.round(x(s)) + 0.5, box.top);
-      ctx.lineTo(Math.round(x(s)) + 0.5, box.bottom);
-    }
-    ctx.stroke();
-    ctx.fillStyle = palette.muted;
-    ctx.textAlign = "right";
-    for (const value of values) {
-      if (value === 0 && values.length === 3) continue;
-      const at = Math.min(Math.max(y(value), box.top + 5), box.bottom - 5);
-      ctx.fillText(value < 0 ? `−${-value}` : `${value}`, box.left - 5, at);
-    }
-    if (!last) return;
-    ctx.textAlign = "center";
-    for (let s = -WINDOW_S; s <= 0; s += every) ctx.fillText(s < 0 ? `−${-s}` : "0", x(s), box.bottom + 11);
-    ctx.fillStyle = palette.ink;
-    ctx.fillText(this.texts.time_axis, (box.left + box.right) / 2, box.bottom + 27);
   }
 
   /** The area between the least and the greatest values of columns, a pixel high at least. */

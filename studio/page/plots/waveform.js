@@ -6,18 +6,12 @@ import { COLUMN } from "./ring.js";
 import { Span } from "./scale.js";
 
 const WINDOW_S = 0.1;
-const LEAST_S = 1 / 30;
 /** Half the axis, m/s², at least: less is silence. */
 const LEAST_M_S2 = 0.1;
 
 export class Waveform extends Figure {
-  constructor(stage, scope, texts) {
-    super(stage, "waveform", texts, texts.legend);
-    this.scope = scope;
-    this.texts = texts;
-    this.least_s = LEAST_S;
-    this.span = new Span(LEAST_M_S2);
-  }
+  least_s = 1 / 30;
+  span = new Span(LEAST_M_S2);
 
   draw(ctx, now_s) {
     const { ring, now, inspect } = this.scope;
