@@ -6,6 +6,7 @@ mod interchange;
 mod library;
 mod mixing;
 mod studio;
+mod study;
 mod views;
 
 pub(crate) use groups::{PreviewOptions, ReportOptions};
@@ -16,6 +17,7 @@ pub(crate) use interchange::{Export, ImportEffects};
 pub(crate) use library::{Build, Diff, Extract, List, Merge, Rename, Split};
 pub(crate) use mixing::{Blend, Compose, Edit, Encode, Mixed};
 pub(crate) use studio::Studio;
+pub(crate) use study::{CheckStudy, RunStudy, SimulateStudy, Study};
 pub(crate) use views::{Inspect, Listen, Plot, Preview, Render};
 
 use asperity::{
@@ -109,6 +111,9 @@ pub(crate) enum Command {
     Render(Render),
     /// Open the studio: a page to type prompts, see surfaces, stroke and hear them
     Studio(Studio),
+    /// Check, run or simulate a study, in which people rate textures
+    #[command(subcommand)]
+    Study(Study),
     /// Show which encoders, models and back ends are available, and how to get the others
     Doctor(Doctor),
     /// Print what a shell needs to complete arguments

@@ -11,17 +11,18 @@ pub(crate) struct File {
 }
 
 macro_rules! files {
-    ($($content_type:literal: $($name:literal)*;)*) => {
+    ($folder:literal $($content_type:literal: $($name:literal)*;)*) => {
         &[$($(File {
             name: $name,
             content_type: $content_type,
-            bytes: include_bytes!(concat!("../page/", $name)),
+            bytes: include_bytes!(concat!("../", $folder, $name)),
         },)*)*]
     };
 }
 
 /// Every file of `page/`.
 pub(crate) const FILES: &[File] = files! {
+    "page/"
     "text/html; charset=utf-8": "index.html";
     "text/css; charset=utf-8": "studio.css" "device/device.css" "files/files.css" "gallery/gallery.css" "output/output.css" "plots/plots.css"
         "steer/steer.css";
@@ -49,6 +50,16 @@ pub(crate) const FILES: &[File] = files! {
     "image/svg+xml": "icon.svg";
 };
 
+/// Every file of a study's page, below `study/`.
+const STUDY_FILES: &[File] = files! {
+    "study/"
+    "text/html; charset=utf-8": "index.html";
+    "text/css; charset=utf-8": "study.css";
+    "text/javascript; charset=utf-8":
+        "exploration.js" "fields.js" "log.js" "page.js" "prompt.js" "server.js" "steps.js" "study.js" "texts.js" "touch.js"
+        "trial.js" "withdrawal.js";
+};
+
 /// The page itself.
 pub(crate) const INDEX: &str = "index.html";
 
@@ -56,6 +67,19 @@ pub(crate) const INDEX: &str = "index.html";
 pub(crate) fn file(name: &str) -> Option<&'static File> {
     let name = if name.is_empty() { INDEX } else { name };
     FILES.iter().find(|file| file.name == name)
+}
+
+/// The file of a study's page: its own below `study/`, those of the studio below `page/` and, for worklets, as in the studio.
+pub(crate) fn study_file(name: &str) -> Option<&'static File> {
+    let own = |name: &str| STUDY_FILES.iter().find(|file| file.name == name);
+    if name.is_empty() {
+        return own(INDEX);
+    }
+    if let Some(name) = name.strip_prefix("study/") {
+        return own(name);
+    }
+    let name = name.strip_prefix("page/").unwrap_or(name);
+    file(name).filter(|file| file.name != INDEX)
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ use crate::{
     guard::{Guard, Target},
     http::{Answer, Body, Head, Method, Status, Timed, read_head},
     studio::Studio,
+    study::{StudyHost, requests as study_requests},
     token::Token,
 };
 use asperity_io::{diagnostic::Diagnostic, system};
@@ -92,10 +93,47 @@ pub struct Server {
     shared: Arc<Shared>,
 }
 
+/// The site of a server.
+#[derive(Clone)]
+pub enum Site {
+    /// A studio, under an address that is new each time.
+    Studio(Arc<Studio>),
+    /// A study for its participants, under the address of its folder.
+    Study(Arc<StudyHost>),
+}
+
+impl From<Studio> for Site {
+    fn from(studio: Studio) -> Self {
+        Self::Studio(Arc::new(studio))
+    }
+}
+
+impl From<Arc<Studio>> for Site {
+    fn from(studio: Arc<Studio>) -> Self {
+        Self::Studio(studio)
+    }
+}
+
+impl From<StudyHost> for Site {
+    fn from(study: StudyHost) -> Self {
+        Self::Study(Arc::new(study))
+    }
+}
+
+impl Site {
+    /// The secret of its address.
+    fn token(&self) -> Result<Token, getrandom::Error> {
+        match self {
+            Self::Study(study) => study.token().map_or_else(Token::random, Ok),
+            Self::Studio(_) => Token::random(),
+        }
+    }
+}
+
 /// State shared by the threads of connections.
 struct Shared {
     guard: Guard,
-    studio: Arc<Studio>,
+    site: Site,
     limits: Limits,
 }
 
@@ -120,22 +158,19 @@ impl Server {
     ///
     /// # Errors
     /// [`BindError`] for a port that cannot be had, and a system without random numbers.
-    pub fn bind(
-        port: u16,
-        studio: impl Into<Arc<Studio>>,
-        limits: Limits,
-    ) -> Result<Self, BindError> {
+    pub fn bind(port: u16, site: impl Into<Site>, limits: Limits) -> Result<Self, BindError> {
         let refused = |source| BindError::Port { port, source };
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(refused)?;
         let address = listener.local_addr().map_err(refused)?;
-        let token = Token::random().map_err(BindError::Random)?;
+        let site = site.into();
+        let token = site.token().map_err(BindError::Random)?;
         Ok(Self {
             listener,
             address,
             stopped: Arc::default(),
             shared: Arc::new(Shared {
                 guard: Guard::new(token),
-                studio: studio.into(),
+                site,
                 limits,
             }),
         })
@@ -158,11 +193,12 @@ impl Server {
 
     /// Answers until it is stopped. Meanwhile another thread loads the networks, so that the page is there at once.
     pub fn run(self) {
-        let studio = Arc::clone(&self.shared.studio);
-        // Without this thread, the first prompt loads them.
-        let _ = thread::Builder::new()
-            .name("networks".into())
-            .spawn(move || studio.load());
+        if let Site::Studio(studio) = self.shared.site.clone() {
+            // Without this thread, the first prompt loads them.
+            let _ = thread::Builder::new()
+                .name("networks".into())
+                .spawn(move || studio.load());
+        }
         let connections = Connections::new(self.shared.limits.connections);
         for stream in self.listener.incoming() {
             if self.stopped.load(Ordering::SeqCst) {
@@ -243,7 +279,10 @@ impl Shared {
         let Target::Below(below) = below else {
             return Answer::moved(&self.guard.page());
         };
-        let work = AssertUnwindSafe(|| api::answer(&self.studio, head, below, body));
+        let work = AssertUnwindSafe(|| match &self.site {
+            Site::Studio(studio) => api::answer(studio, head, below, body),
+            Site::Study(study) => study_requests::answer(study, head, below, body),
+        });
         match catch_unwind(work) {
             Ok(Ok(answer)) => answer,
             Ok(Err(error)) => Answer::from(&error),

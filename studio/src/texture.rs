@@ -202,12 +202,10 @@ impl Texture {
     pub(crate) fn shown(&self, prompts: Option<&Loaded>) -> String {
         let rate_hz = self.document.ar.sample_rate_hz;
         let place = |axis: Axis| {
-            let place =
-                prompts.and_then(|loaded| loaded.scale.place(axis, &self.document.attributes));
+            let place = prompts.and_then(|loaded| self.place(axis, loaded));
             (axis.name().to_owned(), json!(place))
         };
         let memory = self.memory();
-        let model = memory.as_ref().map(|memory| memory.model_crc32);
         inspect::json(&Shown {
             id: &self.id,
             name: &self.document.name,
@@ -223,14 +221,28 @@ impl Texture {
             compiled: &self.compiled,
             made: &self.made,
             places: AXES.into_iter().map(place).collect(),
-            editable: model.is_some_and(|crc32| {
-                prompts.is_some_and(|it| it.compiler.model().has_latent_of(crc32))
-            }),
+            editable: prompts.is_some_and(|loaded| self.has_latent(loaded)),
             certainty: memory.and_then(|memory| memory.history.certainty),
             file: self.file(),
             command: self.recipe.as_ref().and_then(Recipe::command),
             link: self.recipe.as_ref().and_then(Recipe::link),
         })
+    }
+
+    /// Where it lies on a slider, 0 to 100 for most materials.
+    pub(crate) fn place(&self, axis: Axis, loaded: &Loaded) -> Option<f64> {
+        loaded.scale.place(axis, &self.document.attributes)
+    }
+
+    /// Returns true if it has a latent of this prompt compiler, so that it can be edited and mixed.
+    pub(crate) fn has_latent(&self, loaded: &Loaded) -> bool {
+        let memory = self.memory();
+        memory.is_some_and(|it| loaded.compiler.model().has_latent_of(it.model_crc32))
+    }
+
+    /// The report of its prompt, as `asperity compile --json`.
+    pub(crate) fn compiled(&self) -> Option<&Value> {
+        self.compiled.as_ref()
     }
 
     /// What it remembers of how it was made, if it does.

@@ -21,6 +21,12 @@ impl Token {
         Ok(Self(URL_SAFE_NO_PAD.encode(bytes)))
     }
 
+    /// A token that was kept; `None` for other text.
+    pub(crate) fn restored(text: String) -> Option<Self> {
+        let bytes = URL_SAFE_NO_PAD.decode(&text).ok()?;
+        (bytes.len() == BYTES).then_some(Self(text))
+    }
+
     /// The letters.
     pub(crate) fn text(&self) -> &str {
         &self.0

@@ -44,9 +44,9 @@ impl Site {
         Self::of(Studio::new(collection, Some(embedded)), limits)
     }
 
-    /// A server of this studio.
-    pub(crate) fn of(studio: Studio, limits: Limits) -> Self {
-        let server = Server::bind(0, studio, limits).expect("a free port");
+    /// A server of a studio or a study.
+    pub(crate) fn of(site: impl Into<asperity_studio::Site>, limits: Limits) -> Self {
+        let server = Server::bind(0, site, limits).expect("a free port");
         let url = server.url();
         let (address, page) = url
             .strip_prefix("http://")

@@ -13,4 +13,5 @@ mod lists;
 mod mixing;
 mod refusals;
 mod reply;
+mod study;
 mod waits;

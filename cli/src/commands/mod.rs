@@ -22,9 +22,10 @@ mod preview;
 mod record_check;
 mod render;
 mod studio;
+mod study;
 mod timings;
 
-use crate::cli::{Cli, Command, Import};
+use crate::cli::{Cli, Command, Import, Study};
 use asperity::sources::effects::EffectsKind;
 use asperity_console::{Console, clean_up_on_interrupt};
 use asperity_io::diagnostic::{Failures, one};
@@ -33,6 +34,7 @@ use asperity_io::diagnostic::{Failures, one};
 pub(crate) fn prepare(cli: &Cli) -> Result<(), Failures> {
     match cli.command {
         Command::Studio(ref args) if args.export.is_none() => Ok(()),
+        Command::Study(Study::Run(_)) => Ok(()),
         _ => clean_up_on_interrupt().map_err(one),
     }
 }
@@ -71,6 +73,9 @@ pub(crate) fn run(cli: Cli) -> Result<(), Failures> {
         Command::Listen(args) => listen::run(&args, console),
         Command::Render(args) => render::run(&args, console),
         Command::Studio(args) => studio::run(&args, console),
+        Command::Study(Study::Check(args)) => study::check(&args, console),
+        Command::Study(Study::Run(args)) => study::run(&args, console),
+        Command::Study(Study::Simulate(args)) => study::simulate(&args, console),
         Command::Completions(args) => args.run::<Cli>(console),
         Command::Manual(args) => args.run::<Cli>(console),
     }

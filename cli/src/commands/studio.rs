@@ -100,7 +100,7 @@ fn bind(port: Option<u16>, studio: Studio, console: Console) -> Result<Server, B
     })
 }
 
-fn prompts() -> Result<PromptCompiler, Failure> {
+pub(super) fn prompts() -> Result<PromptCompiler, Failure> {
     Ok(PromptCompiler::embedded(&Backend::Portable)?)
 }
 

@@ -91,7 +91,7 @@ pub(super) fn pack(studio: &Studio, body: &mut Body<'_, '_>) -> Result<Answer, A
 }
 
 /// The value of a key in the query, still encoded.
-pub(super) fn queried<'a>(target: &'a str, key: &str) -> Option<&'a str> {
+pub(crate) fn queried<'a>(target: &'a str, key: &str) -> Option<&'a str> {
     let (_, query) = target.split_once('?')?;
     let mut pairs = query.split('&').filter_map(|pair| pair.split_once('='));
     pairs.find_map(|(found, value)| (found == key).then_some(value))

@@ -4,6 +4,8 @@ mod files;
 mod libraries;
 mod requests;
 
+pub(crate) use files::queried;
+
 use crate::{
     device,
     error::ApiError,

@@ -49,7 +49,7 @@ const PAINT: &str =
 const CACHED: &str = "build cached.toml -o out.aspl --cache cache --json";
 
 /// Their number shares no divisor with the stride of the small size, so that it meets as many of them as it can.
-pub(crate) const FORMS: [Form; 92] = [
+pub(crate) const FORMS: [Form; 94] = [
     asperity("inspect in.asp", "in.asp", Seed::Asset),
     asperity("inspect in.asp --json", "in.asp", Seed::Asset),
     asperity("inspect in.aspl", "in.aspl", Seed::Library),
@@ -417,6 +417,12 @@ pub(crate) const FORMS: [Form; 92] = [
         Seed::Asset,
     ),
     asperity("studio in.aspl --export out", "in.aspl", Seed::Library),
+    asperity("study check in.toml --json", "in.toml", Seed::Study),
+    asperity(
+        "study simulate in.toml --participants 2 -o out",
+        "in.toml",
+        Seed::Study,
+    ),
     lab(
         "jitter overlay in.hlog good.hlog -o out.png",
         "in.hlog",

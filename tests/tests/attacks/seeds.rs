@@ -36,6 +36,8 @@ pub(crate) enum Seed {
     Description,
     Manifest,
     Rows,
+    /// A study with people.
+    Study,
     ModelFolder,
     Projection,
     TapDecoder,
@@ -162,6 +164,45 @@ edit = { prompt = \"a bit softer, more like leather\" }
 ";
 const ROWS: &str =
     "name,prompt,of,seed,edit.prompt\ncork,cork,,3,\nsofter,,cork,,\"softer, rougher\"\n";
+/// A study with every kind of texture, form and step.
+const STUDY: &str = "\
+name = \"grit\"
+title = \"Grit\"
+consent = \"\"\"Agree.\"\"\"
+midpoints = true
+[explore]
+seconds = 2.5
+[ratings]
+catch = 1
+[[texture]]
+name = \"cork\"
+prompt = \"cork\"
+anchor = true
+[[texture]]
+name = \"wood\"
+file = \"wood.xml\"
+anchor = true
+[[texture]]
+name = \"between\"
+between = [\"cork\", \"wood\"]
+t = 0.25
+[[attribute]]
+name = \"rough\"
+question = \"How rough?\"
+low = \"smooth\"
+high = \"rough\"
+[[form]]
+name = \"tlx\"
+[[form]]
+name = \"own\"
+after = \"prompts\"
+[[form.item]]
+name = \"liked\"
+question = \"Did you like it?\"
+[prompts]
+text = \"Type.\"
+count = 1
+";
 const COUNTS: &str = "factor,name,instructions\norder,ar 20,2100\narithmetic,fixed,1900.5\n";
 const DEVICE: &str = include_str!("../../../device-sim/devices/touch.toml");
 const GRIP: &str = include_str!("../../../device-sim/grips/light.toml");
@@ -252,6 +293,7 @@ impl Seeds {
             Seed::Description => DESCRIPTION.as_bytes(),
             Seed::Manifest => MANIFEST.as_bytes(),
             Seed::Rows => ROWS.as_bytes(),
+            Seed::Study => STUDY.as_bytes(),
             Seed::ModelFolder => asperity_model::DESCRIPTION.as_bytes(),
             Seed::Projection => asperity_model::TEXT_PROJECTION,
             Seed::TapDecoder => asperity_model::TAP_DECODER,

@@ -12,11 +12,17 @@ use super::{
 use std::{collections::BTreeSet, ffi::OsString, fs};
 
 /// Commands without an input that could be hostile.
-const NOT_ATTACKED: [(Program, &str, &str); 8] = [
+const NOT_ATTACKED: [(Program, &str, &str); 10] = [
     (Compiler, "builtin", "reads nothing"),
     (Compiler, "completions", "reads nothing"),
     (Compiler, "import", "only groups commands"),
     (Compiler, "manual", "reads nothing"),
+    (Compiler, "study", "only groups commands"),
+    (
+        Compiler,
+        "study run",
+        "reads what `study check` reads, then serves; its own tests attack that",
+    ),
     (Lab, "completions", "reads nothing"),
     (Lab, "device", "only groups commands"),
     (

@@ -1,0 +1,607 @@
+//! A study that is running: which step is open for each participant, and what they answer.
+
+use super::{
+    dataset::{Dataset, POSITION_BYTES, Row, rfc3339, stimulus_cells},
+    participants::Participants,
+    plan::{self, Phase, Step},
+    prepared::Study,
+    stimuli::{prompted, sha256},
+};
+use crate::{
+    VERSION, device::LiveDevice, download::Download, error::ApiError, http::Status,
+    limiter::Limiter, prompts::Prompts, texture::Texture, token::Token,
+};
+use asperity_io::{clock::now, diagnostic::Fault};
+use serde::Deserialize;
+use serde_json::{Map, Value, json};
+use std::{
+    collections::HashMap,
+    path::Path,
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+    time::Instant,
+};
+
+/// Ticks of a log: two minutes. What a hand does later is not kept.
+const MOST_LOG_BYTES: usize = 120 * 16_000 * POSITION_BYTES;
+/// Bins of speed and force.
+const BINS: usize = 36;
+/// Letters of a prompt.
+const PROMPT_LETTERS: usize = 1000;
+
+/// A study with its participants, behind a server.
+pub struct StudyHost {
+    study: Study,
+    prompts: Prompts,
+    dataset: Dataset,
+    device: Option<LiveDevice>,
+    participants: Mutex<Participants>,
+    /// By the participant's number.
+    sessions: Mutex<HashMap<usize, Arc<Mutex<Session>>>>,
+    computing: Limiter,
+    said: Box<dyn Fn(&str) + Send + Sync>,
+}
+
+/// The open step of a participant, and what belongs to it.
+struct Session {
+    steps: Vec<Step>,
+    /// The open step, which is the number of trials that are kept.
+    index: usize,
+    /// Time up to the last answer, ms, and when that or the first look was.
+    elapsed_ms: u64,
+    since: Option<Instant>,
+    started_at: String,
+    /// Positions of the open trial.
+    log: Vec<u8>,
+    tries: Vec<Try>,
+    withdrawn: bool,
+}
+
+/// A prompt that was tried.
+struct Try {
+    prompt: String,
+    texture: Arc<Texture>,
+}
+
+/// `POST api/answer`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Answered {
+    pub(crate) index: usize,
+    rt_ms: u64,
+    response: Map<String, Value>,
+    strokes: Option<u64>,
+    taps: Option<u64>,
+    contact_s: Option<f64>,
+    exploration: Option<Vec<f64>>,
+}
+
+impl StudyHost {
+    /// Opens the dataset of a study in a folder; `said` hears who begins, ends and withdraws.
+    ///
+    /// # Errors
+    /// [`Fault`] for a folder of another study, in use, or that cannot be written.
+    pub fn open(
+        study: Study,
+        folder: &Path,
+        device: Option<LiveDevice>,
+        said: impl Fn(&str) + Send + Sync + 'static,
+    ) -> Result<Self, Fault> {
+        let dataset = Dataset::open(
+            folder,
+            (&study.design, &study.text),
+            &study.stimuli,
+            &study.forms,
+            None,
+        )?;
+        let participants = Participants::open(&dataset)?;
+        Ok(Self {
+            prompts: Prompts::new(Some(study.load)),
+            study,
+            dataset,
+            device,
+            participants: Mutex::new(participants),
+            sessions: Mutex::default(),
+            computing: Limiter::computing(),
+            said: Box::new(said),
+        })
+    }
+
+    /// The secret of its address, which is the same as long as its folder is.
+    pub(crate) fn token(&self) -> Option<Token> {
+        lock(&self.participants).token()
+    }
+
+    /// The device behind it.
+    pub(crate) fn device(&self) -> Option<&LiveDevice> {
+        self.device.as_ref()
+    }
+
+    /// Lets a page take part: a new participant, or the one whose secret it has.
+    ///
+    /// # Errors
+    /// For an unknown secret, where all have begun, and where the folder cannot be written.
+    pub(crate) fn join(&self, secret: Option<&str>) -> Result<Value, ApiError> {
+        let mut participants = lock(&self.participants);
+        let (number, secret) = match secret {
+            Some(secret) => (
+                participants.find(secret).ok_or_else(stranger)?,
+                secret.to_owned(),
+            ),
+            None if participants.all().len() >= *self.study.design.participants.get_ref() => {
+                let help = "ask the experimenter, who may state more participants in the study";
+                return Err(ApiError::new(
+                    Status::Conflict,
+                    "all places of this study are taken",
+                    help,
+                ));
+            }
+            None => {
+                let (number, secret) = participants
+                    .add(&self.dataset)
+                    .map_err(|fault| unkept(&fault))?;
+                (self.said)(&format!("{} begins", participants.all()[number].subject));
+                (number, secret)
+            }
+        };
+        Ok(json!({ "me": secret, "subject": participants.all()[number].subject }))
+    }
+
+    /// The participant whose page has this secret: pseudonym and session.
+    fn session(&self, secret: &str) -> Result<(usize, String, Arc<Mutex<Session>>), ApiError> {
+        let participants = lock(&self.participants);
+        let number = participants.find(secret).ok_or_else(stranger)?;
+        let one = &participants.all()[number];
+        let mut sessions = lock(&self.sessions);
+        if let Some(session) = sessions.get(&number) {
+            return Ok((number, one.subject.clone(), Arc::clone(session)));
+        }
+        let (index, elapsed_ms) = self
+            .dataset
+            .progress(&one.subject)
+            .map_err(|fault| unkept(&fault))?;
+        let Study {
+            design,
+            stimuli,
+            forms,
+            ..
+        } = &self.study;
+        let session = Arc::new(Mutex::new(Session {
+            steps: plan::steps(design, stimuli.len(), forms, number),
+            index,
+            elapsed_ms,
+            since: None,
+            started_at: String::new(),
+            log: Vec::new(),
+            tries: Vec::new(),
+            withdrawn: one.withdrawn,
+        }));
+        sessions.insert(number, Arc::clone(&session));
+        Ok((number, one.subject.clone(), session))
+    }
+
+    /// The step that is open.
+    ///
+    /// # Errors
+    /// For an unknown secret.
+    pub(crate) fn step(&self, secret: &str) -> Result<Value, ApiError> {
+        let (_, _, session) = self.session(secret)?;
+        let mut session = lock(&session);
+        session.since.get_or_insert_with(Instant::now);
+        session.log.clear();
+        session.tries.clear();
+        session.started_at = rfc3339(now());
+        let Study {
+            design,
+            stimuli,
+            forms,
+            ..
+        } = &self.study;
+        let device = self
+            .device
+            .as_ref()
+            .map(|device| json!(device.description())["name"].clone());
+        let mut shown = json!({ "index": session.index, "of": session.steps.len(), "title": design.title, "device": device });
+        let mut say = |more: Value| {
+            if let (Some(shown), Value::Object(more)) = (shown.as_object_mut(), more) {
+                shown.extend(more);
+            }
+        };
+        match session.open() {
+            None => say(
+                json!({ "kind": "end", "text": if session.withdrawn { "Your answers are deleted." } else { &design.thanks } }),
+            ),
+            Some(Step::Consent) => {
+                say(json!({ "kind": "consent", "text": design.consent.get_ref() }))
+            }
+            Some(Step::Rating { texture, phase, .. }) => {
+                self.play(&stimuli[texture].texture);
+                let attributes: Vec<_> = design.attributes.iter().map(|it| it.get_ref()).collect();
+                say(
+                    json!({ "kind": "rating", "practice": phase == Phase::Practice, "attributes": attributes,
+                    "texture": format!("api/stimulus/{secret}/{}", session.index) }),
+                );
+                say(self.felt());
+            }
+            Some(Step::Break { done }) => {
+                let total = session
+                    .steps
+                    .iter()
+                    .filter(|step| matches!(step, Step::Rating { .. }))
+                    .count();
+                say(
+                    json!({ "kind": "break", "seconds": design.ratings.break_s, "done": done, "total": total }),
+                );
+            }
+            Some(Step::Form(at)) => {
+                say(json!({ "kind": "form" }));
+                say(forms[at].shown());
+            }
+            Some(Step::Prompt) => {
+                let prompts = design.prompts.as_ref();
+                say(
+                    json!({ "kind": "prompt", "text": prompts.map(|it| &it.text), "tries": prompts.map(|it| 1 + it.refinements) }),
+                );
+                say(self.felt());
+            }
+        }
+        Ok(shown)
+    }
+
+    /// The conditions of every texture, alike for all.
+    fn felt(&self) -> Value {
+        let design = &self.study.design;
+        json!({ "picture": design.picture, "explore": design.explore, "volume_db": design.volume_db.get_ref(),
+            "width_mm": asperity::views::preview::WIDTH_MM })
+    }
+
+    fn play(&self, texture: &Texture) {
+        if let Some(device) = &self.device {
+            device.want("texture", texture.asset());
+        }
+    }
+
+    /// A file of the texture that is open, by what is after `api/stimulus/`: `SECRET/INDEX.ENDING`, or `SECRET/INDEX-TRY.ENDING`.
+    ///
+    /// # Errors
+    /// For an unknown secret, and a texture that is not open.
+    pub(crate) fn stimulus(&self, address: &str) -> Result<(&'static str, Arc<[u8]>), ApiError> {
+        let closed = || {
+            ApiError::new(
+                Status::NotFound,
+                "this texture is not open now",
+                "reload the page",
+            )
+        };
+        let (secret, file) = address.split_once('/').ok_or_else(closed)?;
+        let (place, ending) = file.split_once('.').ok_or_else(closed)?;
+        let (index, tried) = place
+            .split_once('-')
+            .map_or((place, None), |(index, tried)| (index, Some(tried)));
+        let (_, _, session) = self.session(secret)?;
+        let texture = {
+            let session = lock(&session);
+            if index.parse() != Ok(session.index) {
+                return Err(closed());
+            }
+            match (session.open(), tried) {
+                (Some(Step::Rating { texture, .. }), None) => {
+                    Arc::clone(&self.study.stimuli[texture].texture)
+                }
+                (Some(Step::Prompt), Some(tried)) => {
+                    let tried: usize = tried.parse().map_err(|_| closed())?;
+                    Arc::clone(&session.tries.get(tried).ok_or_else(closed)?.texture)
+                }
+                _ => return Err(closed()),
+            }
+        };
+        let download = match ending {
+            "worklet.asp" => Download::Worklet,
+            "unlit.png" => Download::Unlit,
+            "normal.png" => Download::Normals,
+            _ => return Err(closed()),
+        };
+        let bytes = self.computing.take(|| download.bytes(&texture))?;
+        Ok((download.content_type(), bytes))
+    }
+
+    /// Compiles a prompt that a participant tries.
+    ///
+    /// # Errors
+    /// As `asperity compile`, for another step than the open one, and after the last try.
+    pub(crate) fn try_prompt(
+        &self,
+        secret: &str,
+        index: usize,
+        prompt: &str,
+    ) -> Result<Value, ApiError> {
+        let (_, _, session) = self.session(secret)?;
+        let mut session = lock(&session);
+        let most = self
+            .study
+            .design
+            .prompts
+            .as_ref()
+            .map_or(0, |it| 1 + it.refinements);
+        if index != session.index
+            || session.open() != Some(Step::Prompt)
+            || session.tries.len() >= most
+        {
+            return Err(elsewhere());
+        }
+        // A line of a table is a trial.
+        let prompt = prompt.split_whitespace().collect::<Vec<_>>().join(" ");
+        if prompt.chars().count() > PROMPT_LETTERS {
+            return Err(ApiError::new(
+                Status::Unprocessable,
+                "the prompt is too long",
+                "say it in fewer words",
+            ));
+        }
+        let texture = self
+            .computing
+            .take(|| prompted(prompt.clone(), 0, self.prompts.get()?))?;
+        self.play(&texture);
+        session.log.clear();
+        session.tries.push(Try { prompt, texture });
+        Ok(
+            json!({ "texture": format!("api/stimulus/{secret}/{index}-{}", session.tries.len() - 1),
+            "width_mm": asperity::views::preview::WIDTH_MM, "tries_left": most - session.tries.len() }),
+        )
+    }
+
+    /// Takes positions of the hand from tick `first` of the open trial on. A part that comes again takes its own place.
+    ///
+    /// # Errors
+    /// For another step than the open one, for a gap, and for what are no positions.
+    pub(crate) fn log(
+        &self,
+        secret: &str,
+        index: usize,
+        first: usize,
+        positions: &[u8],
+    ) -> Result<(), ApiError> {
+        let (_, _, session) = self.session(secret)?;
+        let mut session = lock(&session);
+        if index != session.index {
+            return Err(elsewhere());
+        }
+        let at = first.saturating_mul(POSITION_BYTES);
+        let finite =
+            |bytes: &[u8]| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]).is_finite();
+        if !positions.len().is_multiple_of(POSITION_BYTES)
+            || !positions.chunks_exact(4).all(finite)
+            || at > session.log.len() && session.log.len() < MOST_LOG_BYTES
+        {
+            return Err(ApiError::new(
+                Status::Unprocessable,
+                "these are no positions that follow those before",
+                "reload the page",
+            ));
+        }
+        if at <= session.log.len() {
+            session.log.truncate(at);
+            let room = MOST_LOG_BYTES - at;
+            session
+                .log
+                .extend_from_slice(&positions[..positions.len().min(room)]);
+        }
+        Ok(())
+    }
+
+    /// Keeps the answer to the open step, and opens the next one.
+    ///
+    /// # Errors
+    /// For another step than the open one, an answer that is missing or impossible, and where it cannot be written: the
+    /// step then stays open.
+    pub(crate) fn answer(&self, secret: &str, given: &Answered) -> Result<(), ApiError> {
+        let (_, subject, session) = self.session(secret)?;
+        let mut session = lock(&session);
+        let step = session
+            .open()
+            .filter(|_| given.index == session.index)
+            .ok_or_else(elsewhere)?;
+        let since = session.since.unwrap_or_else(Instant::now);
+        let passed_ms = u64::try_from(since.elapsed().as_millis()).unwrap_or(u64::MAX);
+        let elapsed_ms = session.elapsed_ms.saturating_add(passed_ms);
+        let mut row = Row {
+            trial_index: session.index,
+            time_elapsed: elapsed_ms,
+            // A page cannot have waited longer than the participant was here.
+            rt: given.rt_ms.min(passed_ms),
+            started_at: session.started_at.clone(),
+            device: self.device.as_ref().map_or_else(
+                || "page".into(),
+                |it| {
+                    json!(it.description())["name"]
+                        .as_str()
+                        .unwrap_or("device")
+                        .to_owned()
+                },
+            ),
+            version: VERSION,
+            ..Row::default()
+        };
+        self.fill(&mut row, step, &session, given)
+            .map_err(|error| {
+                ApiError::new(Status::Unprocessable, error, "answer every question")
+            })?;
+        let felt = matches!(step, Step::Rating { .. } | Step::Prompt);
+        let kept = || {
+            if felt && !session.log.is_empty() {
+                row.log = self.dataset.log(&subject, session.index, &session.log)?;
+            }
+            self.dataset.append(&subject, &[row])
+        };
+        kept().map_err(|fault| unkept(&fault))?;
+        session.index += 1;
+        session.elapsed_ms = elapsed_ms;
+        session.since = Some(Instant::now());
+        session.log.clear();
+        session.tries.clear();
+        if session.index == session.steps.len() {
+            (self.said)(&format!("{subject} has finished"));
+        }
+        Ok(())
+    }
+
+    /// The cells of a step; what is wrong with its answer, in words.
+    fn fill(
+        &self,
+        row: &mut Row,
+        step: Step,
+        session: &Session,
+        given: &Answered,
+    ) -> Result<(), String> {
+        let response = match step {
+            Step::Consent if given.response.get("agreed") == Some(&json!(true)) => {
+                json!({ "agreed": true })
+            }
+            Step::Consent => return Err("response.agreed is not true".into()),
+            Step::Break { .. } => json!({}),
+            Step::Form(at) => {
+                row.form.clone_from(&self.study.forms[at].name);
+                self.study.forms[at].checked(&given.response)?
+            }
+            Step::Rating {
+                texture,
+                phase,
+                repeat,
+            } => {
+                stimulus_cells(row, &self.study.stimuli[texture]);
+                (row.phase, row.repeat) = (phase.name(), Some(repeat));
+                self.rated(&given.response)?
+            }
+            Step::Prompt => {
+                let last = session.tries.last().ok_or("no prompt was tried")?;
+                row.stimulus.clone_from(&last.prompt);
+                row.asset_sha256 = sha256(last.texture.asset());
+                // The log renders with it again.
+                let name = format!("materials/{}.asp", &row.asset_sha256[..16]);
+                self.dataset
+                    .write(&name, last.texture.asset())
+                    .map_err(|fault| fault.to_string())?;
+                let tried = |one: &Try| {
+                    let certainty = one
+                        .texture
+                        .compiled()
+                        .map(|report| report["certainty"].clone());
+                    json!({ "prompt": one.prompt, "certainty": certainty })
+                };
+                json!({ "tries": session.tries.iter().map(tried).collect::<Vec<_>>() })
+            }
+        };
+        row.response = response.to_string();
+        row.trial_type = match step {
+            Step::Consent => "consent",
+            Step::Rating { .. } => "texture-rating",
+            Step::Break { .. } => "break",
+            Step::Form(_) => "form",
+            Step::Prompt => "prompt",
+        };
+        if matches!(step, Step::Rating { .. } | Step::Prompt) {
+            explored(row, given)?;
+        }
+        Ok(())
+    }
+
+    /// Ratings of every attribute, 0 to 100.
+    fn rated(&self, given: &Map<String, Value>) -> Result<Value, String> {
+        let attributes = &self.study.design.attributes;
+        if let Some(unknown) = given
+            .keys()
+            .find(|key| attributes.iter().all(|it| it.get_ref().name != **key))
+        {
+            return Err(format!("response.{unknown}: no such attribute"));
+        }
+        let rating = |it: &toml::Spanned<super::design::Attribute>| {
+            let name = &it.get_ref().name;
+            let number = given
+                .get(name)
+                .filter(|value| value.as_f64().is_some_and(|x| (0.0..=100.0).contains(&x)));
+            number
+                .map(|number| (name.clone(), number.clone()))
+                .ok_or_else(|| format!("response.{name} is not 0 to 100"))
+        };
+        attributes
+            .iter()
+            .map(rating)
+            .collect::<Result<Map<_, _>, _>>()
+            .map(Value::from)
+    }
+
+    /// Deletes what is kept of a participant.
+    ///
+    /// # Errors
+    /// For an unknown secret, and where something cannot be deleted.
+    pub(crate) fn withdraw(&self, secret: &str) -> Result<(), ApiError> {
+        let (number, subject, session) = self.session(secret)?;
+        let mut session = lock(&session);
+        self.dataset
+            .withdraw(&subject)
+            .map_err(|fault| unkept(&fault))?;
+        lock(&self.participants)
+            .withdraw(number, &self.dataset)
+            .map_err(|fault| unkept(&fault))?;
+        session.withdrawn = true;
+        session.log = Vec::new();
+        (self.said)(&format!("{subject} has withdrawn; their data are deleted"));
+        Ok(())
+    }
+}
+
+impl Session {
+    fn open(&self) -> Option<Step> {
+        self.steps
+            .get(self.index)
+            .copied()
+            .filter(|_| !self.withdrawn)
+    }
+}
+
+/// The cells of how a texture was explored.
+fn explored(row: &mut Row, given: &Answered) -> Result<(), String> {
+    let bins = given.exploration.as_ref().ok_or("exploration is missing")?;
+    if bins.len() != BINS
+        || bins
+            .iter()
+            .any(|seconds| !(0.0..=86_400.0).contains(seconds))
+    {
+        return Err(format!("exploration is not {BINS} times"));
+    }
+    let contact_s = given
+        .contact_s
+        .filter(|seconds| (0.0..=86_400.0).contains(seconds));
+    row.contact_s = Some(contact_s.ok_or("contact_s is missing or impossible")?);
+    row.strokes = Some(given.strokes.ok_or("strokes is missing")?);
+    row.taps = Some(given.taps.ok_or("taps is missing")?);
+    row.exploration = json!(bins).to_string();
+    Ok(())
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn stranger() -> ApiError {
+    ApiError::new(
+        Status::Forbidden,
+        "nobody of this study has this page",
+        "open the study's address again",
+    )
+}
+
+fn elsewhere() -> ApiError {
+    ApiError::new(
+        Status::Conflict,
+        "this step is not open",
+        "reload the page; what was answered is kept",
+    )
+}
+
+/// Something that could not be written: nothing of it was.
+fn unkept(fault: &Fault) -> ApiError {
+    ApiError {
+        status: Status::Internal,
+        ..ApiError::of(fault)
+    }
+}
