@@ -19,6 +19,7 @@ mod refusals;
 mod reports;
 mod results;
 mod studio;
+mod study;
 
 use std::{
     fmt::Write as _,

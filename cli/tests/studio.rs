@@ -27,8 +27,13 @@ fn home(folder: &Path) -> [(&str, &Path); 3] {
 
 impl Running {
     pub(crate) fn start(folder: &Path, arguments: &[&str]) -> Self {
+        Self::launch(folder, &[&["studio"], arguments].concat())
+    }
+
+    /// Starts a command that serves a page.
+    pub(crate) fn launch(folder: &Path, arguments: &[&str]) -> Self {
         let mut child = Command::new(env!("CARGO_BIN_EXE_asperity"))
-            .args([&["studio", "--no-open", "--port", "0"], arguments].concat())
+            .args([arguments, &["--no-open", "--port", "0"]].concat())
             .current_dir(folder)
             .envs(home(folder))
             .stdout(Stdio::piped())
@@ -83,6 +88,13 @@ impl Running {
     fn file(&self, texture: &Value, ending: &str) -> Vec<u8> {
         let id = texture["id"].as_str().expect("a name");
         self.ask(&format!("GET api/texture/{id}.{ending}"), "")
+    }
+}
+
+impl Running {
+    /// Kills it, whatever it does.
+    pub(crate) fn kill(mut self) {
+        self.child.kill().expect("it runs");
     }
 }
 

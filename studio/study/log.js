@@ -9,6 +9,8 @@ export class Log {
   #first = 0;
   #count = 0;
   #arrays = [];
+  /** What was sent of the session. */
+  #parts = [];
   #sent = Promise.resolve();
   #failure = null;
 
@@ -21,6 +23,8 @@ export class Log {
   begin() {
     this.#first = this.#count = 0;
     this.#arrays = [];
+    this.#parts = [];
+    this.#failure = null;
   }
 
   /** Takes a message of ticks. */
@@ -31,19 +35,23 @@ export class Log {
     this.#count += ticks;
   }
 
-  /** Sends what is left; resolves when the server has all, and fails as a part did. */
+  /** Sends what is left; resolves when the server has all. */
   async finish() {
     this.#part();
     await this.#sent;
-    if (this.#failure) throw this.#failure;
+    if (!this.#failure) return;
+    // The server may have lost what it had: it was started again, or another tab has opened the step.
+    for (const part of this.#parts) await this.#send(...part);
+    this.#failure = null;
   }
 
   #part() {
     if (this.#count === 0) return;
-    const [first, blob] = [this.#first, new Blob(this.#arrays)];
+    const part = [this.#first, new Blob(this.#arrays)];
+    this.#parts.push(part);
     this.#first += this.#count;
     this.#count = 0;
     this.#arrays = [];
-    this.#sent = this.#sent.then(() => this.#failure || this.#send(first, blob)).catch((error) => (this.#failure = error));
+    this.#sent = this.#sent.then(() => this.#failure || this.#send(...part)).catch((error) => (this.#failure = error));
   }
 }

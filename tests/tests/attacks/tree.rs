@@ -12,7 +12,7 @@ use super::{
 use std::{collections::BTreeSet, ffi::OsString, fs};
 
 /// Commands without an input that could be hostile.
-const NOT_ATTACKED: [(Program, &str, &str); 10] = [
+const NOT_ATTACKED: [(Program, &str, &str); 11] = [
     (Compiler, "builtin", "reads nothing"),
     (Compiler, "completions", "reads nothing"),
     (Compiler, "import", "only groups commands"),
@@ -31,6 +31,7 @@ const NOT_ATTACKED: [(Program, &str, &str); 10] = [
         "reads USB transfers; its own tests damage them",
     ),
     (Lab, "manual", "reads nothing"),
+    (Lab, "study", "reads what `asperity study check` reads, then serves"),
 ];
 
 /// Every command of a program, by the pages of its manual, which its own tree of commands writes.

@@ -12,6 +12,7 @@ mod pareto;
 mod record;
 mod servo;
 mod stability;
+mod study;
 
 use std::process::ExitCode;
 
@@ -38,7 +39,8 @@ use error::Plain;
   asperity-lab measured --hatt hatt/models
   asperity-lab device list
   asperity-lab bench --seconds 5,60
-  asperity-lab record oak --device sim:?hand=record --accel sim:")]
+  asperity-lab record oak --device sim:?hand=record --accel sim:
+  asperity-lab study study.toml --device sim: -o data")]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -59,6 +61,7 @@ enum Command {
     Device(device::Arguments),
     Bench(bench::Arguments),
     Record(record::Arguments),
+    Study(study::Arguments),
     /// Print what a shell needs to complete arguments
     #[command(after_help = "Example:
   asperity-lab completions bash > ~/.local/share/bash-completion/completions/asperity-lab")]
@@ -79,7 +82,7 @@ fn main() -> ExitCode {
     // A servo loop takes the force to zero first.
     let has_loop = matches!(
         arguments.command,
-        Command::Servo(_) | Command::Jitter(_) | Command::Record(_)
+        Command::Servo(_) | Command::Jitter(_) | Command::Record(_) | Command::Study(_)
     );
     if !has_loop {
         if let Err(error) = asperity_console::clean_up_on_interrupt() {
@@ -98,6 +101,7 @@ fn main() -> ExitCode {
         Command::Measured(arguments) => measured::run(arguments, console).map(|()| true),
         Command::Bench(arguments) => bench::run(arguments, console).map(|()| true),
         Command::Record(arguments) => record::run(arguments, console).map(|()| true),
+        Command::Study(arguments) => study::run(arguments, console).map(|()| true),
         Command::Completions(arguments) => arguments.run::<Arguments>(console).map(|()| true),
         Command::Manual(arguments) => arguments.run::<Arguments>(console).map(|()| true),
         Command::Kernel { numbers } => kernel(numbers).map(|()| true),

@@ -7,13 +7,12 @@ use asperity_host::servo::{Record, Stage};
 use asperity_io::diagnostic::{Failures, one, texts};
 use asperity_lab::servo_session::Surface;
 use asperity_studio::{
-    Collection, Limits, LiveDevice, LiveStatus, LiveTick, Percentiles, RequestedTexture, Server,
-    Studio, show,
+    Limits, LiveDevice, LiveStatus, LiveTick, Percentiles, RequestedTexture, Server, show,
 };
 use hdrhistogram::Histogram;
 use tempfile::TempPath;
 
-use super::Arguments;
+use super::{Arguments, Page};
 use crate::error::Plain;
 
 /// Significant digits of latencies.
@@ -32,34 +31,31 @@ pub(super) struct Live {
 }
 
 impl Live {
-    /// Starts the studio's server on a thread of its own, and opens its page where there is a display. Its gallery is
-    /// the library that the loop's texture is of.
+    /// Starts the server of a page on a thread of its own, and opens the page where there is a display.
     ///
     /// # Errors
-    /// For a library that cannot be read, and a port that cannot be had.
+    /// For what the page cannot read, and a port that cannot be had.
     pub(super) fn start(
         arguments: &Arguments,
+        (name, page): Page,
         surface: &Surface,
         device: &str,
         rate_hz: u32,
         console: Console,
     ) -> Result<Self, Failures> {
-        let file = arguments.options.file.as_deref();
-        let library = file.filter(|_| arguments.options.texture.is_some());
-        let collection = library.map(Collection::open).transpose()?;
         let device = LiveDevice::new(device, rate_hz, !surface.is_scene);
-        let studio = Studio::new(collection, None).with_device(device.clone());
-        let server = Server::bind(arguments.port, studio, Limits::default()).map_err(one)?;
+        let site = page(device.clone())?;
+        let server = Server::bind(arguments.port, site, Limits::default()).map_err(one)?;
         let url = server.url();
-        console.aside(&format!("studio: {url}\n"));
+        console.aside(&format!("{name}: {url}\n"));
         // Both end with the process.
         let begun = thread::Builder::new()
-            .name("studio".into())
+            .name(name.into())
             .spawn(move || server.run());
         begun.map_err(|error| {
             Plain::failure(
-                format!("the studio's thread cannot be started: {error}"),
-                "end other programs, or leave out --studio",
+                format!("the thread of the {name} cannot be started: {error}"),
+                "end other programs, and try again",
             )
         })?;
         let failed = move |error| {

@@ -17,6 +17,7 @@ use asperity_io::output::Outputs;
 use asperity_io::shown::counted;
 use asperity_lab::servo_session::{Form, OpenDevice, Recorder, Setup, Surface, run as run_loop};
 use asperity_runtime::Counters;
+use asperity_studio::{Collection, LiveDevice, Site, Studio};
 
 use crate::error::Plain;
 use crate::loop_options::{LoopOptions, stop_on_interrupt, within};
@@ -88,10 +89,60 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
+/// The page beside a loop: its name, and what the server shows, once the device is there.
+pub(crate) type Page = (
+    &'static str,
+    Box<dyn FnOnce(LiveDevice) -> Result<Site, Failures>>,
+);
+
+impl Arguments {
+    /// A loop that plays what a page wants.
+    pub(crate) fn beside_a_page(
+        options: LoopOptions,
+        device: Uri,
+        port: u16,
+        no_open: bool,
+    ) -> Self {
+        Self {
+            options,
+            device,
+            watch: false,
+            studio: true,
+            port,
+            no_open,
+            record: None,
+            look: false,
+            seconds: None,
+            json: false,
+        }
+    }
+}
+
 /// Records that fit into the queue: four seconds.
 const QUEUE_S: usize = 4;
 
 pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failures> {
+    // The gallery is the library that the loop's texture is of.
+    let library = arguments.options.file.clone();
+    let library = library.filter(|_| arguments.options.texture.is_some());
+    let studio = move |device| {
+        let collection = library.as_deref().map(Collection::open).transpose()?;
+        Ok(Site::from(
+            Studio::new(collection, None).with_device(device),
+        ))
+    };
+    run_beside(arguments, ("studio", Box::new(studio)), console)
+}
+
+/// The loop, beside a page where one is wanted.
+///
+/// # Errors
+/// As the command.
+pub(crate) fn run_beside(
+    arguments: &Arguments,
+    page: Page,
+    console: Console,
+) -> Result<(), Failures> {
     let interrupt = stop_on_interrupt()?;
     let options = &arguments.options;
     let is_replay = arguments.device.scheme == Scheme::Replay;
@@ -151,7 +202,7 @@ pub(crate) fn run(arguments: &Arguments, console: Console) -> Result<(), Failure
     let device_name = opened.device.description().name.clone();
     let live = arguments
         .studio
-        .then(|| Live::start(arguments, &surface, &device_name, rate_hz, console));
+        .then(|| Live::start(arguments, page, &surface, &device_name, rate_hz, console));
     let live = live.transpose()?;
     let mut monitor = SessionMonitor::new(arguments, console, recorder, live, rate_hz);
     let began = Instant::now();
