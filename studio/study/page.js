@@ -30,7 +30,9 @@ export class Page {
     this.#title = title;
     find("title").textContent = title;
     find("place").textContent = texts.place(index, of);
-    Object.assign(find("progress"), { max: of, value: index + 1 });
+    // The end comes after the last step.
+    Object.assign(find("progress"), { max: of, value: index });
+    find("main").dataset.index = index;
   }
 
   /** Shows a step: its heading, which gets the focus, its content, and the label of the button, if it has one. */

@@ -4,7 +4,7 @@ const times = (count) => ["", "once", "twice"][count] ?? `${count} times`;
 const list = new Intl.ListFormat("en", { type: "conjunction" });
 
 export const texts = {
-  place: (index, of) => `Step ${index + 1} of ${of}`,
+  place: (index, of) => (index < of ? `Step ${index + 1} of ${of}` : "All steps are done"),
   titled: (heading, title) => `${heading} – ${title}`,
   next: "Next",
   begin: "Begin",

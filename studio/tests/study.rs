@@ -186,8 +186,13 @@ fn a_participant_goes_from_consent_to_the_end_through_a_restart() {
     let phases = column(6);
     assert_eq!(phases[1], "practice");
     assert_eq!(phases.iter().filter(|phase| **phase == "main").count(), 3);
-    let again = phases.iter().position(|phase| *phase == "catch").expect("a rating that comes again");
-    let first = (2..again).find(|at| rows[*at][4] == rows[again][4]).expect("its first time");
+    let again = phases
+        .iter()
+        .position(|phase| *phase == "catch")
+        .expect("a rating that comes again");
+    let first = (2..again)
+        .find(|at| rows[*at][4] == rows[again][4])
+        .expect("its first time");
     assert!(again - first >= 2, "not one right after the other");
     let elapsed: Vec<u64> = column(2).iter().map(|ms| ms.parse().expect("ms")).collect();
     assert!(elapsed.is_sorted(), "{elapsed:?}");

@@ -42,7 +42,7 @@ pub(crate) fn check(args: &CheckStudy, console: Console) -> Result<(), Failures>
 
 pub(crate) fn run(args: &RunStudy, console: Console) -> Result<(), Failures> {
     let study = open(&args.study, console)?;
-    let said = move |text: &str| console.aside(&text);
+    let said = move |text: &str| console.aside(&format!("{text}\n"));
     let host = StudyHost::open(study, &args.output, None, said).map_err(one)?;
     let server = Server::bind(args.port, host, Limits::default()).map_err(one)?;
     let stopper = server.stopper();

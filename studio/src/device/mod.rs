@@ -50,8 +50,8 @@ pub struct RequestedTexture {
 /// A device's description, which the page gets before anything else.
 #[derive(Serialize)]
 pub(crate) struct Description<'a> {
-    name: &'a str,
-    rate_hz: u32,
+    pub(crate) name: &'a str,
+    pub(crate) rate_hz: u32,
     swaps: bool,
 }
 

@@ -11,14 +11,14 @@ use crate::{
     VERSION, device::LiveDevice, download::Download, error::ApiError, http::Status,
     limiter::Limiter, prompts::Prompts, texture::Texture, token::Token,
 };
-use asperity_io::{clock::now, diagnostic::Fault};
+use asperity_io::diagnostic::Fault;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use std::{
     collections::HashMap,
     path::Path,
     sync::{Arc, Mutex, MutexGuard, PoisonError},
-    time::Instant,
+    time::{Instant, SystemTime},
 };
 
 /// Ticks of a log: two minutes. What a hand does later is not kept.
@@ -188,19 +188,16 @@ impl StudyHost {
         let mut session = lock(&session);
         session.since.get_or_insert_with(Instant::now);
         session.log.clear();
-        session.tries.clear();
-        session.started_at = rfc3339(now());
+        session.started_at = rfc3339(SystemTime::UNIX_EPOCH.elapsed().unwrap_or_default());
         let Study {
             design,
             stimuli,
             forms,
             ..
         } = &self.study;
-        let device = self
-            .device
-            .as_ref()
-            .map(|device| json!(device.description())["name"].clone());
-        let mut shown = json!({ "index": session.index, "of": session.steps.len(), "title": design.title, "device": device });
+        let mut shown = json!({ "index": session.index, "of": session.steps.len(), "title": design.title,
+            "device": self.device.as_ref().map(|device| device.description().name.to_owned()),
+            "device_rate_hz": self.device.as_ref().map(|device| device.description().rate_hz) });
         let mut say = |more: Value| {
             if let (Some(shown), Value::Object(more)) = (shown.as_object_mut(), more) {
                 shown.extend(more);
@@ -242,9 +239,26 @@ impl StudyHost {
                     json!({ "kind": "prompt", "text": prompts.map(|it| &it.text), "tries": prompts.map(|it| 1 + it.refinements) }),
                 );
                 say(self.felt());
+                say(self.last_try(secret, &session));
             }
         }
         Ok(shown)
+    }
+
+    /// Tries of a prompt.
+    fn most_tries(&self) -> usize {
+        let prompts = self.study.design.prompts.as_ref();
+        prompts.map_or(0, |it| 1 + it.refinements)
+    }
+
+    /// The prompt that was tried last, if any.
+    fn last_try(&self, secret: &str, session: &Session) -> Value {
+        let count = session.tries.len();
+        let Some(last) = session.tries.last() else {
+            return json!({});
+        };
+        json!({ "texture": format!("api/stimulus/{secret}/{}-{}", session.index, count - 1), "prompt": last.prompt,
+            "width_mm": asperity::views::preview::WIDTH_MM, "tries_left": self.most_tries().saturating_sub(count) })
     }
 
     /// The conditions of every texture, alike for all.
@@ -316,16 +330,7 @@ impl StudyHost {
     ) -> Result<Value, ApiError> {
         let (_, _, session) = self.session(secret)?;
         let mut session = lock(&session);
-        let most = self
-            .study
-            .design
-            .prompts
-            .as_ref()
-            .map_or(0, |it| 1 + it.refinements);
-        if index != session.index
-            || session.open() != Some(Step::Prompt)
-            || session.tries.len() >= most
-        {
+        if index != session.index || session.open() != Some(Step::Prompt) {
             return Err(elsewhere());
         }
         // A line of a table is a trial.
@@ -337,16 +342,22 @@ impl StudyHost {
                 "say it in fewer words",
             ));
         }
-        let texture = self
-            .computing
-            .take(|| prompted(prompt.clone(), 0, self.prompts.get()?))?;
-        self.play(&texture);
+        // An answer that was lost is asked for again.
+        if session
+            .tries
+            .last()
+            .is_none_or(|last| last.prompt != prompt)
+        {
+            if session.tries.len() >= self.most_tries() {
+                return Err(elsewhere());
+            }
+            let compile = || prompted(prompt.clone(), 0, self.prompts.get()?);
+            let texture = self.computing.take(compile)?;
+            self.play(&texture);
+            session.tries.push(Try { prompt, texture });
+        }
         session.log.clear();
-        session.tries.push(Try { prompt, texture });
-        Ok(
-            json!({ "texture": format!("api/stimulus/{secret}/{index}-{}", session.tries.len() - 1),
-            "width_mm": asperity::views::preview::WIDTH_MM, "tries_left": most - session.tries.len() }),
-        )
+        Ok(self.last_try(secret, &session))
     }
 
     /// Takes positions of the hand from tick `first` of the open trial on. A part that comes again takes its own place.
@@ -409,15 +420,11 @@ impl StudyHost {
             // A page cannot have waited longer than the participant was here.
             rt: given.rt_ms.min(passed_ms),
             started_at: session.started_at.clone(),
-            device: self.device.as_ref().map_or_else(
-                || "page".into(),
-                |it| {
-                    json!(it.description())["name"]
-                        .as_str()
-                        .unwrap_or("device")
-                        .to_owned()
-                },
-            ),
+            device: self
+                .device
+                .as_ref()
+                .map_or("page", |it| it.description().name)
+                .to_owned(),
             version: VERSION,
             ..Row::default()
         };
@@ -484,7 +491,7 @@ impl StudyHost {
                     let certainty = one
                         .texture
                         .compiled()
-                        .map(|report| report["certainty"].clone());
+                        .map(|report| report["certainty_level"].clone());
                     json!({ "prompt": one.prompt, "certainty": certainty })
                 };
                 json!({ "tries": session.tries.iter().map(tried).collect::<Vec<_>>() })
