@@ -9,9 +9,10 @@
 //! | `sourcedata/participants.json` | addresses of participants: not to be published |
 
 use super::{
-    design::{Design, Simulate, Text},
+    design::{Design, Simulate},
     forms::Form,
     stimuli::{Stimulus, sha256},
+    text::Text,
 };
 use crate::VERSION;
 use asperity_io::{

@@ -1,6 +1,9 @@
 //! Questionnaires: the public ones that are built in, and those that a file supplies.
 
-use super::design::{Design, FormEntry, Text};
+use super::{
+    design::{Design, FormEntry},
+    text::Text,
+};
 use asperity_io::diagnostic::Fault;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};

@@ -1,19 +1,19 @@
 //! A study that is running: which step is open for each participant, and what they answer.
 
 use super::{
-    dataset::{Dataset, POSITION_BYTES, Row, rfc3339, stimulus_cells},
+    answers::Answered,
+    dataset::{Dataset, POSITION_BYTES, Row, rfc3339},
     participants::Participants,
     plan::{self, Phase, Step},
     prepared::Study,
-    stimuli::{prompted, sha256},
+    stimuli::prompted,
 };
 use crate::{
     VERSION, device::LiveDevice, download::Download, error::ApiError, http::Status,
     limiter::Limiter, prompts::Prompts, texture::Texture, token::Token,
 };
 use asperity_io::diagnostic::Fault;
-use serde::Deserialize;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 use std::{
     collections::HashMap,
     path::Path,
@@ -23,8 +23,6 @@ use std::{
 
 /// Ticks of a log: two minutes. What a hand does later is not kept.
 const MOST_LOG_BYTES: usize = 120 * 16_000 * POSITION_BYTES;
-/// Bins of speed and force.
-const BINS: usize = 36;
 /// Letters of a prompt.
 const PROMPT_LETTERS: usize = 1000;
 
@@ -57,22 +55,9 @@ struct Session {
 }
 
 /// A prompt that was tried.
-struct Try {
-    prompt: String,
-    texture: Arc<Texture>,
-}
-
-/// `POST api/answer`.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Answered {
-    pub(crate) index: usize,
-    rt_ms: u64,
-    response: Map<String, Value>,
-    strokes: Option<u64>,
-    taps: Option<u64>,
-    contact_s: Option<f64>,
-    exploration: Option<Vec<f64>>,
+pub(super) struct Try {
+    pub(super) prompt: String,
+    pub(super) texture: Arc<Texture>,
 }
 
 impl StudyHost {
@@ -127,7 +112,7 @@ impl StudyHost {
                 participants.find(secret).ok_or_else(stranger)?,
                 secret.to_owned(),
             ),
-            None if participants.all().len() >= *self.study.design.participants.get_ref() => {
+            None if participants.all().len() >= self.study.design.participants => {
                 let help = "ask the experimenter, who may state more participants in the study";
                 return Err(ApiError::new(
                     Status::Conflict,
@@ -264,7 +249,7 @@ impl StudyHost {
     /// The conditions of every texture, alike for all.
     fn felt(&self) -> Value {
         let design = &self.study.design;
-        json!({ "picture": design.picture, "explore": design.explore, "volume_db": design.volume_db.get_ref(),
+        json!({ "picture": design.picture, "explore": design.explore, "volume_db": design.volume_db,
             "width_mm": asperity::views::preview::WIDTH_MM })
     }
 
@@ -428,13 +413,17 @@ impl StudyHost {
             version: VERSION,
             ..Row::default()
         };
-        self.fill(&mut row, step, &session, given)
-            .map_err(|error| {
-                ApiError::new(Status::Unprocessable, error, "answer every question")
-            })?;
-        let felt = matches!(step, Step::Rating { .. } | Step::Prompt);
+        let filled = given.fill(&mut row, step, &self.study, &session.tries);
+        filled.map_err(|error| {
+            ApiError::new(Status::Unprocessable, error, "answer every question")
+        })?;
         let kept = || {
-            if felt && !session.log.is_empty() {
+            if let Some(tried) = session.tries.last() {
+                // The log renders with it again.
+                let name = format!("materials/{}.asp", &row.asset_sha256[..16]);
+                self.dataset.write(&name, tried.texture.asset())?;
+            }
+            if step.is_felt() && !session.log.is_empty() {
                 row.log = self.dataset.log(&subject, session.index, &session.log)?;
             }
             self.dataset.append(&subject, &[row])
@@ -449,91 +438,6 @@ impl StudyHost {
             (self.said)(&format!("{subject} has finished"));
         }
         Ok(())
-    }
-
-    /// The cells of a step; what is wrong with its answer, in words.
-    fn fill(
-        &self,
-        row: &mut Row,
-        step: Step,
-        session: &Session,
-        given: &Answered,
-    ) -> Result<(), String> {
-        let response = match step {
-            Step::Consent if given.response.get("agreed") == Some(&json!(true)) => {
-                json!({ "agreed": true })
-            }
-            Step::Consent => return Err("response.agreed is not true".into()),
-            Step::Break { .. } => json!({}),
-            Step::Form(at) => {
-                row.form.clone_from(&self.study.forms[at].name);
-                self.study.forms[at].checked(&given.response)?
-            }
-            Step::Rating {
-                texture,
-                phase,
-                repeat,
-            } => {
-                stimulus_cells(row, &self.study.stimuli[texture]);
-                (row.phase, row.repeat) = (phase.name(), Some(repeat));
-                self.rated(&given.response)?
-            }
-            Step::Prompt => {
-                let last = session.tries.last().ok_or("no prompt was tried")?;
-                row.stimulus.clone_from(&last.prompt);
-                row.asset_sha256 = sha256(last.texture.asset());
-                // The log renders with it again.
-                let name = format!("materials/{}.asp", &row.asset_sha256[..16]);
-                self.dataset
-                    .write(&name, last.texture.asset())
-                    .map_err(|fault| fault.to_string())?;
-                let tried = |one: &Try| {
-                    let certainty = one
-                        .texture
-                        .compiled()
-                        .map(|report| report["certainty_level"].clone());
-                    json!({ "prompt": one.prompt, "certainty": certainty })
-                };
-                json!({ "tries": session.tries.iter().map(tried).collect::<Vec<_>>() })
-            }
-        };
-        row.response = response.to_string();
-        row.trial_type = match step {
-            Step::Consent => "consent",
-            Step::Rating { .. } => "texture-rating",
-            Step::Break { .. } => "break",
-            Step::Form(_) => "form",
-            Step::Prompt => "prompt",
-        };
-        if matches!(step, Step::Rating { .. } | Step::Prompt) {
-            explored(row, given)?;
-        }
-        Ok(())
-    }
-
-    /// Ratings of every attribute, 0 to 100.
-    fn rated(&self, given: &Map<String, Value>) -> Result<Value, String> {
-        let attributes = &self.study.design.attributes;
-        if let Some(unknown) = given
-            .keys()
-            .find(|key| attributes.iter().all(|it| it.get_ref().name != **key))
-        {
-            return Err(format!("response.{unknown}: no such attribute"));
-        }
-        let rating = |it: &toml::Spanned<super::design::Attribute>| {
-            let name = &it.get_ref().name;
-            let number = given
-                .get(name)
-                .filter(|value| value.as_f64().is_some_and(|x| (0.0..=100.0).contains(&x)));
-            number
-                .map(|number| (name.clone(), number.clone()))
-                .ok_or_else(|| format!("response.{name} is not 0 to 100"))
-        };
-        attributes
-            .iter()
-            .map(rating)
-            .collect::<Result<Map<_, _>, _>>()
-            .map(Value::from)
     }
 
     /// Deletes what is kept of a participant.
@@ -563,26 +467,6 @@ impl Session {
             .copied()
             .filter(|_| !self.withdrawn)
     }
-}
-
-/// The cells of how a texture was explored.
-fn explored(row: &mut Row, given: &Answered) -> Result<(), String> {
-    let bins = given.exploration.as_ref().ok_or("exploration is missing")?;
-    if bins.len() != BINS
-        || bins
-            .iter()
-            .any(|seconds| !(0.0..=86_400.0).contains(seconds))
-    {
-        return Err(format!("exploration is not {BINS} times"));
-    }
-    let contact_s = given
-        .contact_s
-        .filter(|seconds| (0.0..=86_400.0).contains(seconds));
-    row.contact_s = Some(contact_s.ok_or("contact_s is missing or impossible")?);
-    row.strokes = Some(given.strokes.ok_or("strokes is missing")?);
-    row.taps = Some(given.taps.ok_or("taps is missing")?);
-    row.exploration = json!(bins).to_string();
-    Ok(())
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {

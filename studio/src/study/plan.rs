@@ -52,6 +52,24 @@ pub(crate) enum Step {
     Prompt,
 }
 
+impl Step {
+    /// Its name in the dataset.
+    pub(crate) const fn trial_type(self) -> &'static str {
+        match self {
+            Self::Consent => "consent",
+            Self::Rating { .. } => "texture-rating",
+            Self::Break { .. } => "break",
+            Self::Form(_) => "form",
+            Self::Prompt => "prompt",
+        }
+    }
+
+    /// True if a texture is felt in it.
+    pub(crate) const fn is_felt(self) -> bool {
+        matches!(self, Self::Rating { .. } | Self::Prompt)
+    }
+}
+
 /// The steps of the participant of this number, from 0.
 pub(crate) fn steps(
     design: &Design,

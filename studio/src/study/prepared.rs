@@ -1,11 +1,12 @@
 //! A study, read, checked and compiled.
 
 use super::{
-    design::{Design, Text},
+    design::Design,
     forms::{self, Form},
     plan::{self, Step},
     simulate,
     stimuli::{self, Stimulus},
+    text::Text,
 };
 use crate::prompts::{LoadPrompts, Prompts};
 use asperity_io::diagnostic::{Failures, Fault, all, one};

@@ -1,6 +1,6 @@
 //! The interface between a participant's page and the study.
 
-use super::host::{Answered, StudyHost};
+use super::{answers::Answered, host::StudyHost};
 use crate::{
     api::queried,
     device,

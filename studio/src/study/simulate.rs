@@ -48,6 +48,7 @@ pub(super) fn simulate(
         let steps = plan::steps(design, stimuli.len(), forms, number);
         let row = |(index, step): (usize, Step)| {
             let mut row = Row {
+                trial_type: step.trial_type(),
                 trial_index: index,
                 time_elapsed: (index as u64 + 1) * STEP_MS,
                 rt: STEP_MS,
@@ -75,15 +76,12 @@ fn answer(row: &mut Row, study: &Study, step: Step, bias: &[f64], random: &mut S
     } = study;
     match step {
         Step::Consent => {
-            row.trial_type = "consent";
             json!({ "agreed": true })
         }
         Step::Break { .. } => {
-            row.trial_type = "break";
             json!({})
         }
         Step::Form(at) => {
-            row.trial_type = "form";
             row.form.clone_from(&forms[at].name);
             let item = |item: &super::forms::Item| {
                 let middle = 0.5 * (item.least + item.most);
@@ -104,7 +102,6 @@ fn answer(row: &mut Row, study: &Study, step: Step, bias: &[f64], random: &mut S
                 .into()
         }
         Step::Prompt => {
-            row.trial_type = "prompt";
             row.stimulus = "simulated".into();
             explored(row);
             json!({ "tries": [{ "prompt": "simulated", "certainty": null }] })
@@ -114,7 +111,6 @@ fn answer(row: &mut Row, study: &Study, step: Step, bias: &[f64], random: &mut S
             phase,
             repeat,
         } => {
-            row.trial_type = "texture-rating";
             stimulus_cells(row, &stimuli[texture]);
             (row.phase, row.repeat) = (phase.name(), Some(repeat));
             explored(row);

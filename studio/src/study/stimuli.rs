@@ -1,6 +1,9 @@
 //! The textures of a study, compiled.
 
-use super::design::{Design, Text, TextureEntry};
+use super::{
+    design::{Design, TextureEntry},
+    text::Text,
+};
 use crate::{
     error::ApiError,
     making,
