@@ -73,7 +73,7 @@ const COLUMNS: [(&str, &str, &str); 21] = [
     ("trial_index", "number of the trial, from 0", ""),
     (
         "time_elapsed",
-        "from the participant's first step to the end of the trial, without interruptions",
+        "from the participant's first step to the end of the trial, while the program ran",
         "ms",
     ),
     ("rt", "from the trial's being shown to its answer", "ms"),
