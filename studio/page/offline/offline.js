@@ -8,7 +8,7 @@ import { Module } from "./module.js";
 /** What names a texture. */
 const ID = /\b[0-9a-f]{32}\b/g;
 /** Files of each texture that are there beside those that are offered. */
-const LOADED = "worklet.asp";
+const LOADED = ["worklet.asp", "unlit.png"];
 
 export class Offline {
   #module;
@@ -24,7 +24,7 @@ export class Offline {
   constructor(about, base, fetched) {
     this.#module = new Module(new URL(about.compiler.file, base).href, about.version);
     this.#fetch = fetched;
-    this.#files = [...about.files, LOADED];
+    this.#files = [...about.files, ...LOADED];
     this.#library = about.library?.id;
     const total = about.compiler.bytes;
     this.#module.on("load", (bytes) => {
