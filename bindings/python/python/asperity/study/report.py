@@ -11,7 +11,7 @@ import numpy as np
 
 from . import agreement, exploration, figures, forms, midpoints
 from ._extra import Frame, pandas
-from .load import Study
+from .load import Study, StudyError
 from .statistics import Options
 
 _STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem}
@@ -180,11 +180,18 @@ def report(study: Study, options: Options = Options()) -> str:
 
 
 def write_report(study: Study, path: Union[str, Path], options: Options = Options()) -> None:
-    """Writes the report to a file, all of it or nothing."""
-    path = Path(path)
+    """Writes the report to a file, all of it or nothing; to a pipe or a device as it comes."""
+    path, page = Path(path), report(study, options).encode()
     part = path.with_name(f".{path.name}.{os.getpid()}")
     try:
-        part.write_bytes(report(study, options).encode())
-        os.replace(part, path)
-    finally:
-        part.unlink(missing_ok=True)
+        if path.exists() and not path.is_file():
+            path.write_bytes(page)
+            return
+        try:
+            part.write_bytes(page)
+            os.replace(part, path)
+        finally:
+            part.unlink(missing_ok=True)
+    except OSError as error:
+        remedy = "give a file in a folder that exists and can be written"
+        raise StudyError(f"{path}: cannot be written: {error.strerror}", remedy) from None
