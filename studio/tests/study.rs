@@ -366,5 +366,12 @@ fn a_folder_of_another_study_is_refused_and_stays_as_it_is() {
     fs::create_dir(&files).expect("room");
     fs::write(files.join("thesis.txt"), "x").expect("room");
     assert!(open(STUDY, &files).what.contains("other files"));
+    // Whoever has answered is known, and nobody is mistaken for another.
+    let study = Running::start(folder.path());
+    let me = study.join();
+    study.advance(&me);
+    study.stop();
+    fs::remove_file(data.join("sourcedata/participants.json")).expect("a file");
+    assert!(open(STUDY, &data).what.contains("missing"));
     assert_eq!(fs::read_dir(&files).expect("a folder").count(), 1);
 }

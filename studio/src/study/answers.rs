@@ -3,17 +3,24 @@
 use super::{
     dataset::{Row, stimulus_cells},
     design::Attribute,
-    host::Try,
     plan::Step,
     prepared::Study,
     stimuli::sha256,
 };
+use crate::texture::Texture;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
+use std::sync::Arc;
 use toml::Spanned;
 
 /// Bins of speed and force.
 const BINS: usize = 36;
+
+/// A prompt that was tried.
+pub(super) struct Try {
+    pub(super) prompt: String,
+    pub(super) texture: Arc<Texture>,
+}
 
 /// `POST api/answer`.
 #[derive(Deserialize)]

@@ -143,22 +143,23 @@ impl Dataset {
         fs::create_dir_all(folder).map_err(failed)?;
         let study = folder.join("materials/study.toml");
         let is_new = !study.exists();
-        let mut others = fs::read_dir(folder)
-            .map_err(failed)?
-            .flatten()
-            .filter(|it| it.file_name() != "sourcedata");
-        if is_new && others.next().is_some() {
+        // One that was begun and not finished, as on a full disk, has its lock.
+        let is_begun = folder.join("sourcedata/lock").exists();
+        let is_empty = fs::read_dir(folder).map_err(failed)?.next().is_none();
+        if is_new && !is_begun && !is_empty {
             let what = "no dataset of a study, but other files";
             return Err(Fault::new(what, "give a new or an empty folder as --output").at(folder));
         }
         if !is_new && fs::read(&study).map_err(failed)? != text.text.as_bytes() {
             let what =
                 "the folder has the data of another study, or of an earlier state of this one";
-            return Err(Fault::new(
-                what,
-                "give a new folder, or the study.toml in its materials",
-            )
-            .at(folder));
+            return Err(Fault::new(what, "give a new folder, or the study as it was").at(folder));
+        }
+        let described = fs::read(folder.join("materials/study.json")).unwrap_or_default();
+        let described: Value = serde_json::from_slice(&described).unwrap_or_default();
+        if simulated.is_none() && described["simulated"].is_object() {
+            let what = "the folder has simulated participants";
+            return Err(Fault::new(what, "give a new folder for people").at(folder));
         }
         for name in [
             "data",
@@ -299,6 +300,18 @@ impl Dataset {
         }
     }
 
+    /// Returns true if somebody's trials are kept.
+    ///
+    /// # Errors
+    /// [`Fault`] where the folder cannot be read.
+    pub(crate) fn has_tables(&self) -> Result<bool, Fault> {
+        let folder = self.folder.join("data");
+        let entries = fs::read_dir(&folder)
+            .map_err(|error| Fault::new(error, "see that the folder can be read").at(&folder))?;
+        let mut names = entries.flatten().map(|entry| entry.file_name());
+        Ok(names.any(|name| name.to_string_lossy().ends_with("_data.csv")))
+    }
+
     fn table(&self, subject: &str) -> String {
         format!("data/study-{}_subject-{subject}_data.csv", self.study)
     }
@@ -342,6 +355,10 @@ impl Dataset {
     pub(crate) fn append(&self, subject: &str, rows: &[Row]) -> Result<(), Fault> {
         let name = self.table(subject);
         let mut table = self.read(&name)?.unwrap_or_default();
+        // An editor may have taken the last end of a line.
+        if table.last().is_some_and(|byte| *byte != b'\n') {
+            table.push(b'\n');
+        }
         let mut writer = csv::WriterBuilder::new()
             .has_headers(table.is_empty())
             .from_writer(Vec::new());
@@ -441,42 +458,9 @@ fn private(folder: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// The time as RFC 3339 writes it, to the millisecond.
-pub(crate) fn rfc3339(since_1970: std::time::Duration) -> String {
-    let seconds = since_1970.as_secs();
-    let (days, second) = (seconds / 86_400, seconds % 86_400);
-    // Days to a date of the Gregorian calendar, in years that begin in March (Richards 2013).
-    let shifted = days + 719_468;
-    let (era, day_of_era) = (shifted / 146_097, shifted % 146_097);
-    let year_of_era =
-        (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
-    let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
-    let shifted_month = (5 * day_of_year + 2) / 153;
-    let day = day_of_year - (153 * shifted_month + 2) / 5 + 1;
-    let month = if shifted_month < 10 {
-        shifted_month + 3
-    } else {
-        shifted_month - 9
-    };
-    let year = year_of_era + 400 * era + u64::from(month <= 2);
-    let (hour, minute, second) = (second / 3600, second / 60 % 60, second % 60);
-    let milli = since_1970.subsec_millis();
-    format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}.{milli:03}Z")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::time::Duration;
-
-    #[test]
-    fn times_are_those_of_the_calendar() {
-        let at = |seconds| rfc3339(Duration::from_secs(seconds));
-        assert_eq!(at(0), "1970-01-01T00:00:00.000Z");
-        assert_eq!(at(951_782_400), "2000-02-29T00:00:00.000Z");
-        assert_eq!(at(1_796_083_199), "2026-11-30T23:59:59.000Z");
-        assert_eq!(at(4_107_542_400), "2100-03-01T00:00:00.000Z");
-    }
 
     #[test]
     fn the_columns_are_those_of_a_row() {

@@ -1,12 +1,13 @@
 //! A study that is running: which step is open for each participant, and what they answer.
 
 use super::{
-    answers::Answered,
-    dataset::{Dataset, POSITION_BYTES, Row, rfc3339},
+    answers::{Answered, Try},
+    dataset::{Dataset, POSITION_BYTES, Row},
     participants::Participants,
     plan::{self, Phase, Step},
     prepared::Study,
     stimuli::prompted,
+    utc::rfc3339,
 };
 use crate::{
     VERSION, device::LiveDevice, download::Download, error::ApiError, http::Status,
@@ -54,12 +55,6 @@ struct Session {
     withdrawn: bool,
 }
 
-/// A prompt that was tried.
-pub(super) struct Try {
-    pub(super) prompt: String,
-    pub(super) texture: Arc<Texture>,
-}
-
 impl StudyHost {
     /// Opens the dataset of a study in a folder; `said` hears who begins, ends and withdraws.
     ///
@@ -79,6 +74,9 @@ impl StudyHost {
             None,
         )?;
         let participants = Participants::open(&dataset)?;
+        for one in participants.all() {
+            dataset.progress(&one.subject)?;
+        }
         Ok(Self {
             prompts: Prompts::new(Some(study.load)),
             study,
@@ -112,8 +110,8 @@ impl StudyHost {
                 participants.find(secret).ok_or_else(stranger)?,
                 secret.to_owned(),
             ),
-            None if participants.all().len() >= self.study.design.participants => {
-                let help = "ask the experimenter, who may state more participants in the study";
+            None if participants.here() >= self.study.design.participants => {
+                let help = "ask the experimenter";
                 return Err(ApiError::new(
                     Status::Conflict,
                     "all places of this study are taken",

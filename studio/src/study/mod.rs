@@ -8,7 +8,7 @@
 //! | `stimuli` | its textures, compiled |
 //! | `prepared` | all of these |
 //! | `host`, `answers`, `participants`, `requests` | who takes part, and what is open for them |
-//! | `dataset` | what is written |
+//! | `dataset`, `utc` | what is written |
 //! | `simulate` | participants that nobody asked |
 //!
 //! A participant's page knows the address of the study and a secret of its own. It gets the step that is open and no other,
@@ -27,6 +27,7 @@ pub(crate) mod requests;
 mod simulate;
 mod stimuli;
 mod text;
+mod utc;
 
 pub use host::StudyHost;
 pub use prepared::{Outline, Study};

@@ -29,7 +29,12 @@ impl Participants {
     /// # Errors
     /// [`Fault`] for a damaged file, and where it cannot be written or the system has no random numbers.
     pub(crate) fn open(dataset: &Dataset) -> Result<Self, Fault> {
+        let remedy = "restore it from a copy, or run the study in a new folder";
         let Some(bytes) = dataset.read(FILE)? else {
+            if dataset.has_tables()? {
+                let what = "missing, although participants have answered";
+                return Err(Fault::new(what, remedy).at(FILE));
+            }
             let token = random()?.text().to_owned();
             let new = Self {
                 token,
@@ -47,10 +52,7 @@ impl Participants {
                 .chain([&it.token]);
             tokens.cloned().all(|text| Token::restored(text).is_some())
         });
-        known.ok_or_else(|| {
-            let remedy = "delete it: participants who have not finished then begin anew";
-            Fault::new("damaged", remedy).at(FILE)
-        })
+        known.ok_or_else(|| Fault::new("damaged", remedy).at(FILE))
     }
 
     /// The secret of the study's address.
@@ -91,6 +93,14 @@ impl Participants {
             Token::restored(one.secret.clone()).is_some_and(|token| token.is(secret))
         };
         self.participants.iter().position(is)
+    }
+
+    /// Number of those who have not withdrawn.
+    pub(crate) fn here(&self) -> usize {
+        self.participants
+            .iter()
+            .filter(|one| !one.withdrawn)
+            .count()
     }
 
     /// All of them.

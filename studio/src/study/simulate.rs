@@ -2,11 +2,12 @@
 //! midpoint lies nearer to its higher anchor. They say how many people a design needs, and nothing of people.
 
 use super::{
-    dataset::{Dataset, Row, rfc3339, stimulus_cells},
+    dataset::{Dataset, Row, stimulus_cells},
     design::Simulate,
     plan::{self, Shuffle, Step},
     prepared::Study,
     stimuli::Stimulus,
+    utc::rfc3339,
 };
 use crate::VERSION;
 use asperity_io::diagnostic::Fault;
