@@ -31,7 +31,11 @@ const NOT_ATTACKED: [(Program, &str, &str); 11] = [
         "reads USB transfers; its own tests damage them",
     ),
     (Lab, "manual", "reads nothing"),
-    (Lab, "study", "reads what `asperity study check` reads, then serves"),
+    (
+        Lab,
+        "study",
+        "reads what `asperity study check` reads, then serves",
+    ),
 ];
 
 /// Every command of a program, by the pages of its manual, which its own tree of commands writes.
